@@ -1,0 +1,46 @@
+# Targets set up .venv by themselves; PYTHON chooses the interpreter.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+SOURCES := $(shell find api codec formats cli -name '*.py' -o -name '*.pyi' -o -name '*.npz' \
+	-o -name '*.cpp' -o -name '*.hpp' -o -name py.typed | LC_ALL=C sort)
+# Python files are links in the editable install: only a new file list needs a reinstall.
+KERNELS := $(filter codec/kernels/%,$(SOURCES))
+
+.PHONY: install demo test check bench clean files
+
+install: $(STAMP)
+
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
+# Rewritten only when the list of files differs, or when build/, which the install links to, is gone.
+$(VENV)/files: files | $(BIN)/python
+files:
+	@mkdir -p $(VENV)
+	@test -d build || rm -f $(VENV)/files
+	@echo '$(SOURCES)' | cmp -s - $(VENV)/files || echo '$(SOURCES)' > $(VENV)/files
+
+$(STAMP): $(VENV)/files $(KERNELS) pyproject.toml setup.py | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[test,check]'
+	@touch $@
+
+demo: $(STAMP)
+	@PATH="$(CURDIR)/$(BIN):$$PATH" sh samples/demo.sh
+
+test: $(STAMP)
+	$(BIN)/python -m pytest
+
+check: $(STAMP)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy -p ebz
+
+bench: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[bench]'
+	$(BIN)/python tests/bench/run.py
+
+clean:
+	rm -rf $(VENV) build dist *.egg-info

@@ -1,0 +1,40 @@
+"""The C++ kernels; everything else about the build is in pyproject.toml."""
+
+import os
+import sys
+from pathlib import Path
+
+import nanobind
+from setuptools import Extension, setup
+
+KERNELS = Path("codec/kernels")
+NANOBIND = Path(nanobind.__file__).parent
+
+# setuptools wants sources below this folder or as given; nanobind's are compiled as they are.
+sources = sorted(str(path) for path in KERNELS.glob("*.cpp"))
+nanobind_source = os.path.relpath(NANOBIND / "src" / "nb_combined.cpp")
+link_args = [] if sys.platform == "darwin" else ["-Wl,-s"]
+
+setup(
+    ext_modules=[
+        Extension(
+            "ebz.codec._kernels",
+            sources=[*sources, nanobind_source],
+            depends=sorted(str(path) for path in KERNELS.glob("*.hpp")),
+            include_dirs=[
+                nanobind.include_dir(),
+                str(NANOBIND / "ext" / "robin_map" / "include"),
+            ],
+            language="c++",
+            extra_compile_args=[
+                "-std=c++20",
+                "-O3",
+                "-ffp-contract=off",
+                "-fvisibility=hidden",
+                "-fno-strict-aliasing",
+                "-DNDEBUG",
+            ],
+            extra_link_args=link_args,
+        )
+    ]
+)
