@@ -1,0 +1,153 @@
+// The kernels as a Python module: the one file that knows of Python.  All of them release the GIL.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <utility>
+
+#include "connectivity.hpp"
+#include "errors.hpp"
+#include "integers.hpp"
+#include "positions.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+template <class T>
+using Input = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Array = nb::ndarray<nb::numpy, T, nb::ndim<1>>;
+
+template <class T>
+std::span<const T> view(const Input<T>& array) {
+    return {array.data(), array.size()};
+}
+
+// Hands the memory of a vector over to numpy.
+template <class T>
+Array<T> to_numpy(std::vector<T>&& values) {
+    auto* owned = new std::vector<T>(std::move(values));
+    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    return Array<T>(owned->data(), {owned->size()}, owner);
+}
+
+template <class Work>
+auto without_gil(Work work) {
+    nb::gil_scoped_release release;
+    return work();
+}
+
+void require_addressable(size_t n_half_edges) {
+    if (n_half_edges > static_cast<size_t>(INT32_MAX)) {
+        throw ebz::TooLarge("more than 715,827,882 triangles");
+    }
+}
+
+std::vector<ebz::SpecialS> specials_from(const Input<int64_t>& pairs) {
+    std::vector<ebz::SpecialS> specials;
+    for (size_t i = 0; i + 1 < pairs.size(); i += 2) specials.push_back({pairs.data()[i], pairs.data()[i + 1]});
+    return specials;
+}
+
+nb::tuple encode_connectivity(const Input<int32_t>& faces, int32_t n_vertices) {
+    require_addressable(faces.size());
+    ebz::EncodedConnectivity encoded =
+        without_gil([&] { return ebz::encode_connectivity(view(faces), n_vertices); });
+    std::vector<int64_t> specials;
+    for (const ebz::SpecialS& s : encoded.word.specials) specials.insert(specials.end(), {s.position, s.meets});
+    return nb::make_tuple(to_numpy(std::move(encoded.word.symbols)), to_numpy(std::move(specials)),
+                          encoded.word.n_closed, encoded.word.n_single,
+                          to_numpy(std::move(encoded.word.gates)),
+                          to_numpy(std::move(encoded.connectivity.opposite)),
+                          to_numpy(std::move(encoded.connectivity.fans.vertex)),
+                          to_numpy(std::move(encoded.source_vertex)));
+}
+
+nb::bytes to_bytes(const std::vector<uint8_t>& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
+
+nb::bytes encode_symbols(const Input<uint8_t>& symbols, const Input<int64_t>& specials,
+                         const Input<uint32_t>& frequencies, const Input<uint16_t>& successors) {
+    return to_bytes(without_gil([&] {
+        return ebz::encode_symbols(view(symbols), specials_from(specials),
+                                   ebz::AutomatonModel(view(frequencies), view(successors)));
+    }));
+}
+
+nb::tuple decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
+                              int64_t n_single, const Input<int64_t>& specials,
+                              const Input<uint32_t>& frequencies, const Input<uint16_t>& successors) {
+    require_addressable(3 * static_cast<size_t>(n_symbols + n_closed));
+    const ebz::WordHeader header{static_cast<ebz::Index>(n_symbols), static_cast<ebz::Index>(n_closed),
+                                 static_cast<ebz::Index>(n_single)};
+    ebz::DecodedConnectivity decoded = without_gil([&] {
+        return ebz::decode_connectivity(view(bytes), header, specials_from(specials),
+                                        ebz::AutomatonModel(view(frequencies), view(successors)));
+    });
+    return nb::make_tuple(to_numpy(std::move(decoded.symbols)),
+                          to_numpy(std::move(decoded.connectivity.opposite)),
+                          to_numpy(std::move(decoded.connectivity.fans.vertex)),
+                          decoded.connectivity.fans.n_vertices);
+}
+
+nb::bytes encode_positions(const Input<int32_t>& opposite, const Input<int32_t>& vertex, int32_t n_vertices,
+                           const Input<int64_t>& values, int space) {
+    const ebz::Surface surface{view(opposite), view(vertex), n_vertices};
+    return to_bytes(without_gil(
+        [&] { return ebz::encode_positions(surface, view(values), static_cast<ebz::Space>(space)); }));
+}
+
+Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                const Input<int32_t>& vertex, int32_t n_vertices, int space) {
+    const ebz::Surface surface{view(opposite), view(vertex), n_vertices};
+    return to_numpy(without_gil([&] {
+        std::vector<int64_t> values(static_cast<size_t>(n_vertices) * 3);
+        ebz::decode_positions(view(bytes), surface, static_cast<ebz::Space>(space), values);
+        return values;
+    }));
+}
+
+nb::bytes encode_integers(const Input<uint64_t>& values, size_t n_columns) {
+    return to_bytes(without_gil([&] { return ebz::encode_integers(view(values), n_columns); }));
+}
+
+Array<uint64_t> decode_integers(const Input<uint8_t>& bytes, size_t n_rows, size_t n_columns) {
+    return to_numpy(without_gil([&] { return ebz::decode_integers(view(bytes), n_rows, n_columns); }));
+}
+
+void translate_errors(const std::exception_ptr& error, void*) {
+    const auto raise = [](const char* name, const char* message) {
+        const nb::object type = nb::module_::import_("ebz.codec.errors").attr(name);
+        PyErr_SetString(type.ptr(), message);
+    };
+    try {
+        std::rethrow_exception(error);
+    } catch (const ebz::Corrupt& e) {
+        raise("CorruptError", e.what());
+    } catch (const ebz::TooLarge& e) {
+        raise("MeshError", e.what());
+    }
+}
+
+}  // namespace
+
+NB_MODULE(_kernels, m) {
+    m.doc() = "The loops of ebz, in C++; arguments are checked by the modules that call them.";
+    nb::register_exception_translator(translate_errors);
+    m.def("encode_connectivity", &encode_connectivity, "faces"_a, "n_vertices"_a,
+          "symbols, specials (position, meets), n_closed, n_single, gates, opposite, piece_vertex, "
+          "source_vertex of 3m vertex indices.");
+    m.def("encode_symbols", &encode_symbols, "symbols"_a, "specials"_a, "frequencies"_a, "successors"_a,
+          "The word in reverse order under an automaton.");
+    m.def("decode_connectivity", &decode_connectivity, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
+          "specials"_a, "frequencies"_a, "successors"_a,
+          "symbols, opposite, piece_vertex, n_piece_vertices of an encoded word.");
+    m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
+          "space"_a, "The bytes of 3n lattice values along a surface.");
+    m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
+          "space"_a, "The 3n lattice values.");
+    m.def("encode_integers", &encode_integers, "values"_a, "n_columns"_a,
+          "Rows of unsigned integers, a model per column.");
+    m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,
+          "The rows, flattened.");
+}

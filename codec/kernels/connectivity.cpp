@@ -1,0 +1,101 @@
+#include "connectivity.hpp"
+
+#include "pieces.hpp"
+#include "reverse.hpp"
+
+namespace ebz {
+
+namespace {
+
+// The special S of the word, met from the last to the first.
+class SpecialsReversed {
+public:
+    explicit SpecialsReversed(std::span<const SpecialS> specials) : left_(specials) {}
+
+    // What the S at `position` meets, none if it is not special; positions fall from call to call.
+    int64_t take(int64_t position) {
+        if (left_.empty() || left_.back().position != position) return none;
+        const int64_t meets = left_.back().meets;
+        left_ = left_.first(left_.size() - 1);
+        return meets;
+    }
+
+    bool all_taken() const { return left_.empty(); }
+
+private:
+    std::span<const SpecialS> left_;
+};
+
+std::vector<Index> reordered(std::span<const Index> opposite, std::span<const Index> gates) {
+    std::vector<Index> output_of(opposite.size());
+    for (Index t = 0; t < static_cast<Index>(gates.size()); ++t) {
+        Index h = gates[t];
+        for (Index side = 0; side < 3; ++side, h = next(h)) output_of[h] = 3 * t + side;
+    }
+    std::vector<Index> output(opposite.size());
+    for (Index h = 0; h < static_cast<Index>(opposite.size()); ++h) {
+        output[output_of[h]] = opposite[h] == none ? none : output_of[opposite[h]];
+    }
+    return output;
+}
+
+}  // namespace
+
+EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_vertices) {
+    EncodedConnectivity encoded;
+    {
+        const Pieces pieces = cut_into_pieces(faces, n_vertices);
+        encoded.word = encode_word(pieces.opposite, pieces.fans);
+        encoded.connectivity.opposite = reordered(pieces.opposite, encoded.word.gates);
+    }
+    const std::vector<Index>& gates = encoded.word.gates;
+    Fans& fans = encoded.connectivity.fans = number_fans(encoded.connectivity.opposite);
+    encoded.source_vertex.resize(fans.n_vertices);
+    for (Index t = 0; t < static_cast<Index>(gates.size()); ++t) {
+        Index h = gates[t];
+        for (Index side = 0; side < 3; ++side, h = next(h)) {
+            encoded.source_vertex[fans.vertex[3 * t + side]] = faces[h];
+        }
+    }
+    return encoded;
+}
+
+std::vector<uint8_t> encode_symbols(std::span<const uint8_t> symbols, std::span<const SpecialS> specials,
+                                    AutomatonModel model) {
+    RangeEncoder coder;
+    LoopStack loops;
+    SpecialsReversed reversed(specials);
+    for (int64_t position = static_cast<int64_t>(symbols.size()) - 1; position >= 0; --position) {
+        const Symbol symbol = static_cast<Symbol>(symbols[position]);
+        const bool special = reversed.take(position) != none;
+        model.shares(loops).encode(coder, symbol);
+        loops.apply(symbol, special);
+        model.advance(symbol, special);
+    }
+    return coder.finish();
+}
+
+DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const WordHeader& header,
+                                        std::span<const SpecialS> specials, AutomatonModel model) {
+    DecodedConnectivity decoded;
+    decoded.symbols.resize(header.n_symbols);
+    RangeDecoder coder(bytes);
+    LoopStack loops;
+    SpecialsReversed reversed(specials);
+    Reverse reverse(header.n_symbols, header.n_closed, header.n_single);
+    for (Index position = header.n_symbols - 1; position >= 0; --position) {
+        const Symbol symbol = model.shares(loops).decode(coder);
+        const int64_t meets = reversed.take(position);
+        if (meets != none && symbol != S) throw Corrupt("a symbol other than S is listed as special");
+        loops.apply(symbol, meets != none);
+        reverse.apply(symbol, meets);
+        model.advance(symbol, meets != none);
+        decoded.symbols[position] = symbol;
+    }
+    if (!reversed.all_taken()) throw Corrupt("a special S lies outside the word");
+    decoded.connectivity.opposite = reverse.finish();
+    decoded.connectivity.fans = number_fans(decoded.connectivity.opposite);
+    return decoded;
+}
+
+}  // namespace ebz

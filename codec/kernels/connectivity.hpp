@@ -1,0 +1,44 @@
+// A list of triangles <-> its word, with the triangles and vertices in the order of the word.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "edgebreaker.hpp"
+#include "word_models.hpp"
+
+namespace ebz {
+
+// Corners in output order, with the vertices of the pieces numbered by first corner.
+struct Connectivity {
+    std::vector<Index> opposite;
+    Fans fans;
+};
+
+struct EncodedConnectivity {
+    Word word;
+    Connectivity connectivity;
+    std::vector<Index> source_vertex;  // per piece vertex, the vertex of the input
+};
+
+// faces: 3m indices in [0, n_vertices).
+EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_vertices);
+
+// The word in reverse order under a model; throws Corrupt where the model forbids a symbol.
+std::vector<uint8_t> encode_symbols(std::span<const uint8_t> symbols, std::span<const SpecialS> specials,
+                                    AutomatonModel model);
+
+struct WordHeader {
+    Index n_symbols, n_closed, n_single;
+};
+
+struct DecodedConnectivity {
+    std::vector<uint8_t> symbols;
+    Connectivity connectivity;
+};
+
+DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const WordHeader& header,
+                                        std::span<const SpecialS> specials, AutomatonModel model);
+
+}  // namespace ebz

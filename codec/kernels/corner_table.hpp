@@ -1,0 +1,30 @@
+// Corners and half-edges of a triangle mesh, as index arithmetic.
+//
+// Corner c is in triangle c / 3.  Half-edge c runs from the vertex of corner c to that of next(c);
+// opposite[c] is the half-edge that runs the other way across the same edge, -1 on a boundary.
+// Reference: J. Rossignac, A. Safonova, A. Szymczak, "3D compression made simple: Edgebreaker on a
+// corner table", 2001.  There a corner names the edge across from it; here it names the edge after it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ebz {
+
+using Index = int32_t;
+inline constexpr Index none = -1;
+
+constexpr Index next(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
+constexpr Index previous(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
+
+struct Fans {
+    std::vector<Index> vertex;  // per corner
+    Index n_vertices = 0;
+};
+
+// One vertex for each fan of corners that are joined through edges, numbered by first corner.
+// opposite must be an involution without fixed points.
+Fans number_fans(std::span<const Index> opposite);
+
+}  // namespace ebz

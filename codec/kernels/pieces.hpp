@@ -1,0 +1,25 @@
+// Cuts any list of triangles into oriented manifold pieces that Edgebreaker can code.
+//
+// Pieces are simple: three distinct vertices per triangle, no two edges with the same two ends, every
+// boundary of at least three edges (which follows: a boundary of two edges has equal ends).
+//
+// Every decision depends on the mesh alone and not on the order of its faces or vertices, except that
+// among identical faces the first stands for all: so a decoded mesh is cut as its original was.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "corner_table.hpp"
+
+namespace ebz {
+
+struct Pieces {
+    std::vector<Index> opposite;  // per half-edge
+    Fans fans;                    // the vertices of the pieces; several may stand for one mesh vertex
+};
+
+// faces: 3m vertex indices in [0, n_vertices).
+Pieces cut_into_pieces(std::span<const Index> faces, Index n_vertices);
+
+}  // namespace ebz

@@ -1,0 +1,158 @@
+#include "reverse.hpp"
+
+#include "errors.hpp"
+
+namespace ebz {
+
+Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single)
+    : n_closed_(n_closed),
+      n_single_(n_single),
+      n_triangles_(n_symbols + n_closed),
+      triangle_(n_triangles_),
+      opposite_(static_cast<size_t>(n_triangles_) * 3, none),
+      next_(opposite_.size()),
+      previous_(opposite_.size()) {}
+
+void Reverse::apply(Symbol symbol, int64_t meets) {
+    --triangle_;
+    switch (symbol) {
+        case C: close(); break;
+        case L: left(); break;
+        case R: right(); break;
+        case S: split(meets == none ? none : half_edge_met(meets)); break;
+        default: end();
+    }
+    stack_.back() = {3 * triangle_, triangle_ - n_closed_};
+}
+
+Index Reverse::top() const {
+    if (stack_.empty()) throw Corrupt("the word needs a loop where there is none");
+    return stack_.back().gate;
+}
+
+void Reverse::match(Index h, Index g) {
+    opposite_[h] = g;
+    opposite_[g] = h;
+}
+
+void Reverse::link(Index h, Index g) {
+    next_[h] = g;
+    previous_[g] = h;
+}
+
+void Reverse::end() {
+    const Index gate = 3 * triangle_;
+    link(gate, gate + 1);
+    link(gate + 1, gate + 2);
+    link(gate + 2, gate);
+    stack_.push_back({});
+}
+
+void Reverse::right() {
+    const Index g = top(), gate = 3 * triangle_;
+    link(previous_[g], gate);
+    link(gate, gate + 1);
+    link(gate + 1, next_[g]);
+    match(gate + 2, g);
+}
+
+void Reverse::left() {
+    const Index g = top(), gate = 3 * triangle_;
+    link(previous_[g], gate + 2);
+    link(gate + 2, gate);
+    link(gate, next_[g]);
+    match(gate + 1, g);
+}
+
+void Reverse::close() {
+    const Index g = top(), gate = 3 * triangle_;
+    const Index met = previous_[g], before = previous_[met];
+    if (before == g || previous_[before] == g) throw Corrupt("the word closes a loop of three edges");
+    link(before, gate);
+    link(gate, next_[g]);
+    match(gate + 1, g);
+    match(gate + 2, met);
+}
+
+void Reverse::split(Index met) {
+    const Index g = top();
+    if (met == none) {
+        if (stack_.size() < 2) throw Corrupt("the word has an S that lacks its left loop");
+        stack_.pop_back();
+        met = stack_.back().gate;
+    }
+    splice(g, met);
+}
+
+// Joins two loops, or splits one in two, depending on where the two half-edges are.
+void Reverse::splice(Index g, Index met) {
+    const Index gate = 3 * triangle_;
+    // A loop keeps two edges at least, and none of its links is to an edge that was matched.
+    if (met == g || met == next_[g] || met == previous_[g] || next_[met] == met) {
+        throw Corrupt("the word folds an edge onto its neighbour");
+    }
+    const Index before = previous_[met], after = next_[met];
+    link(previous_[g], after);
+    link(gate, next_[g]);
+    link(before, gate);
+    match(gate + 1, g);
+    match(gate + 2, met);
+}
+
+Index Reverse::half_edge_met(int64_t meets) const {
+    // Everything built since the loop below was last touched belongs to the component of the top loop.
+    const int64_t end = stack_.size() > 1 ? stack_[stack_.size() - 2].front : n_triangles_ - n_closed_;
+    if (meets / 2 <= triangle_ - n_closed_ || meets / 2 >= end) {
+        throw Corrupt("a special S meets a triangle out of range");
+    }
+    const int64_t triangle = meets / 2 + n_closed_;
+    const Index met = static_cast<Index>(3 * triangle + 1 + meets % 2);
+    if (opposite_[met] != none) throw Corrupt("a special S meets an edge that is taken");
+    return met;
+}
+
+std::vector<Index> Reverse::finish() {
+    if (stack_.size() < static_cast<size_t>(n_closed_) + n_single_) {
+        throw Corrupt("the word leaves fewer loops than there are components");
+    }
+    move_closed_components();
+    return std::move(opposite_);
+}
+
+// Word and closed components are in one array, where a closed component's own first triangle must come
+// before its symbols: each moves towards the front by the number of closed components after it.
+void Reverse::move_closed_components() {
+    const size_t n_open = stack_.size() - n_closed_ - n_single_;
+    // From the top of the stack down: the components in the order of the word.
+    const auto component = [&](size_t i) -> const Active& { return stack_[stack_.size() - 1 - i]; };
+    const auto shift_symbols = [&](Index from, Index to, Index by) {
+        for (Index t = from; by != 0 && t < to; ++t) {
+            for (int side = 0; side < 3; ++side) {
+                const Index across = opposite_[3 * (t + n_closed_) + side];
+                opposite_[3 * (t + n_closed_ - by) + side] = across == none ? none : across - 3 * by;
+            }
+        }
+    };
+    const auto front = [&](size_t i) {
+        return i < stack_.size() ? component(i).front : n_triangles_ - n_closed_;
+    };
+    if (n_open > 0) shift_symbols(0, front(n_open), n_closed_);
+    for (Index j = 0; j < n_closed_; ++j) {
+        const size_t i = n_open + j;
+        const Index by = n_closed_ - 1 - j;
+        const Active& active = component(i);
+        const Index a = active.gate, b = previous_[a], c = next_[a];
+        if (next_[c] != b || b == c) throw Corrupt("a closed component ends in a loop of other than three edges");
+        shift_symbols(front(i), front(i + 1), by);
+        add_first_triangle(active.front + j, a - 3 * by);
+        match(3 * (active.front + j) + 1, b - 3 * by);
+        match(3 * (active.front + j) + 2, c - 3 * by);
+    }
+}
+
+void Reverse::add_first_triangle(Index at, Index gate) {
+    opposite_[3 * at] = none;
+    match(3 * at, gate);
+}
+
+}  // namespace ebz
