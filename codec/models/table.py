@@ -1,0 +1,182 @@
+"""Model tables: the frozen integers from which both coders take the probability of each symbol.
+
+A table file is an npz archive; `kind` tells which arrays it holds (here: a finite automaton).
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec.errors import OptionError
+
+SYMBOLS = "CLRSE"
+C, L, R, S, E = range(5)
+FREQUENCY_BITS = 16
+TOTAL = 1 << FREQUENCY_BITS
+MAX_STATES = 65535
+TABLES = Path(__file__).parent / "tables"
+# No array of a table has more entries: MAX_STATES rows of five.
+MAX_ENTRIES = MAX_STATES * 5
+
+
+@dataclass(eq=False)
+class Table:
+    """Integer probabilities of reverse CLRSE symbols in each state of an automaton.
+
+    frequencies: (n, 5) uint32, columns C, L, R, S, E; each row sums to 2^16; 0 forbids (only C).
+    successors: (n, 5) uint16, the next state, 0 where the symbol is forbidden.
+    State 0 is where coding starts and where a special S leads: nothing is known, C is allowed.
+    """
+
+    name: str
+    frequencies: npt.NDArray[np.uint32]
+    successors: npt.NDArray[np.uint16]
+    kind: str = "automaton"
+
+    def __repr__(self) -> str:
+        return f"Table({self.name!r}, {self.kind}, {len(self.frequencies)} rows)"
+
+    def check(self) -> None:
+        """Raise OptionError, naming the row and column, unless a coder can use the table."""
+        if self.kind != "automaton":
+            raise OptionError(f"model table: unknown kind {self.kind!r}")
+        n = len(self.frequencies)
+        if self.frequencies.shape != (n, 5) or self.successors.shape != (n, 5):
+            raise OptionError("model table: frequencies and successors are not both (n, 5)")
+        if not 1 <= n <= MAX_STATES:
+            raise OptionError(f"model table: {n} states, not 1 to {MAX_STATES}")
+        check_frequencies(self.frequencies)
+        if not self.frequencies[0, C]:
+            raise OptionError("model table: state 0 is where coding starts and must allow C")
+        _check_successors(self.successors, self.frequencies > 0)
+
+    @classmethod
+    def load(cls, name_or_path: str | PathLike[str]) -> Table:
+        """The built-in table of that name, or the table in that file.
+
+        Raises OptionError where there is neither, or where the table is malformed.
+        """
+        path = table_path(name_or_path)
+        try:
+            return cls.from_bytes(path.read_bytes())
+        except OSError as error:
+            raise OptionError(f"cannot read it: {error.strerror}", source=str(path)) from None
+        except OptionError as error:
+            raise OptionError(error.message, source=str(path)) from None
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Table:
+        """The checked table of a file's content; raises OptionError where it is malformed."""
+        arrays = _arrays(data)
+        missing = {"name", "kind", "frequencies", "successors"} - arrays.keys()
+        if missing:
+            raise OptionError(f"model table: no array {min(missing)!r}")
+        table = cls(
+            name=str(arrays["name"]),
+            frequencies=_integers(arrays, "frequencies", np.uint32),
+            successors=_integers(arrays, "successors", np.uint16),
+            kind=str(arrays["kind"]),
+        )
+        table.check()
+        return table
+
+    def to_bytes(self) -> bytes:
+        """The content of the table's file; the same table gives the same bytes."""
+        buffer = io.BytesIO()
+        np.savez_compressed(
+            buffer,
+            name=np.array(self.name),
+            kind=np.array(self.kind),
+            frequencies=self.frequencies.astype(np.uint32),
+            successors=self.successors.astype(np.uint16),
+        )
+        return buffer.getvalue()
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the checked table to `path`."""
+        self.check()
+        Path(path).write_bytes(self.to_bytes())
+
+
+def table_names() -> list[str]:
+    """The names of the built-in tables."""
+    return sorted(path.stem for path in TABLES.glob("*.npz"))
+
+
+def table_path(name_or_path: str | PathLike[str]) -> Path:
+    """Where the built-in table of that name is, or else the path itself."""
+    built_in = TABLES / f"{name_or_path}.npz"
+    if Path(name_or_path).name == str(name_or_path) and built_in.is_file():
+        return built_in
+    path = Path(name_or_path)
+    if not path.exists():
+        names = ", ".join(table_names())
+        raise OptionError(f"no model {str(name_or_path)!r}: neither a file nor one of {names}")
+    return path
+
+
+def check_frequencies(frequencies: npt.NDArray[np.uint32]) -> None:
+    """Raise OptionError unless each row sums to 2^16 and only C is ever forbidden."""
+    sums = frequencies.sum(axis=1, dtype=np.uint64)
+    if (wrong := np.flatnonzero(sums != TOTAL)).size:
+        raise OptionError(f"model table: row {wrong[0]} sums to {sums[wrong[0]]}, not {TOTAL}")
+    if (zeros := np.argwhere(frequencies[:, L:] == 0)).size:
+        row, column = zeros[0]
+        raise OptionError(f"model table: row {row} forbids {SYMBOLS[L + column]}; only C may be")
+
+
+def _check_successors(successors: npt.NDArray[np.uint16], allowed: npt.NDArray[np.bool_]) -> None:
+    n = len(successors)
+    wrong = np.argwhere((successors >= n) | (~allowed & (successors != 0)))
+    if wrong.size:
+        row, column = wrong[0]
+        raise OptionError(
+            f"model table: row {row}, {SYMBOLS[column]}: successor {successors[row, column]} "
+            + (f"of {n} states" if allowed[row, column] else "of a forbidden symbol")
+        )
+
+
+def _integers(arrays: dict[str, npt.NDArray[Any]], name: str, dtype: type) -> npt.NDArray[Any]:
+    values = arrays[name]
+    if values.dtype.kind not in "iu":
+        raise OptionError(f"model table: array {name!r} is not of integers")
+    if values.size and (values.min() < 0 or values.max() > np.iinfo(dtype).max):
+        raise OptionError(f"model table: array {name!r} does not fit {np.dtype(dtype).name}")
+    return np.ascontiguousarray(values, dtype)
+
+
+def _arrays(data: bytes) -> dict[str, npt.NDArray[Any]]:
+    """Every array of an npz; the sizes that it declares are checked before any is allocated."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return {
+                member.filename.removesuffix(".npy"): _array(archive, member)
+                for member in archive.infolist()[:16]
+            }
+    except OptionError:
+        raise
+    except (zipfile.BadZipFile, ValueError, EOFError, NotImplementedError, RuntimeError) as error:
+        raise OptionError(f"model table: not an npz file ({error})") from None
+    except Exception as error:  # zlib.error, struct.error and what else a damaged archive raises
+        raise OptionError(f"model table: damaged npz file ({error})") from None
+
+
+def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> npt.NDArray[Any]:
+    with archive.open(member) as stream:
+        if np.lib.format.read_magic(stream) != (1, 0):
+            raise OptionError(f"model table: {member.filename} is not of npy version 1.0")
+        shape, fortran, dtype = np.lib.format.read_array_header_1_0(stream)
+        n = int(np.prod([int(extent) for extent in shape], dtype=object))
+        if dtype.kind not in "iuU" or dtype.itemsize > 1024 or not 0 <= n <= MAX_ENTRIES:
+            raise OptionError(f"model table: {member.filename} declares {shape} of {dtype}")
+        content = stream.read(n * dtype.itemsize)
+    array = np.frombuffer(content, dtype, n)
+    return array.reshape(shape, order="F" if fortran else "C")
