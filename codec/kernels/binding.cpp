@@ -4,10 +4,13 @@
 
 #include <utility>
 
+#include "byte_planes.hpp"
 #include "connectivity.hpp"
 #include "errors.hpp"
 #include "integers.hpp"
+#include "lattices.hpp"
 #include "positions.hpp"
+#include "topology.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -107,12 +110,35 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
     }));
 }
 
+template <class Float>
+int decimal_digits(const Input<Float>& values, int max_digits, size_t max_misses) {
+    return without_gil([&] { return ebz::decimal_digits(view(values), max_digits, max_misses); });
+}
+
 nb::bytes encode_integers(const Input<uint64_t>& values, size_t n_columns) {
     return to_bytes(without_gil([&] { return ebz::encode_integers(view(values), n_columns); }));
 }
 
 Array<uint64_t> decode_integers(const Input<uint8_t>& bytes, size_t n_rows, size_t n_columns) {
     return to_numpy(without_gil([&] { return ebz::decode_integers(view(bytes), n_rows, n_columns); }));
+}
+
+nb::bytes encode_rows(const Input<uint8_t>& rows, size_t stride) {
+    return to_bytes(without_gil([&] { return ebz::encode_rows(view(rows), stride); }));
+}
+
+Array<uint8_t> decode_rows(const Input<uint8_t>& bytes, size_t n_rows, size_t stride) {
+    return to_numpy(without_gil([&] {
+        std::vector<uint8_t> rows(n_rows * stride);
+        ebz::decode_rows(view(bytes), stride, rows);
+        return rows;
+    }));
+}
+
+nb::tuple describe(const Input<int32_t>& opposite) {
+    const ebz::Topology topology = without_gil([&] { return ebz::describe(view(opposite)); });
+    return nb::make_tuple(topology.n_components, topology.n_boundary_loops, topology.n_boundary_edges,
+                          topology.n_edges);
 }
 
 void translate_errors(const std::exception_ptr& error, void*) {
@@ -146,8 +172,15 @@ NB_MODULE(_kernels, m) {
           "space"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
           "space"_a, "The 3n lattice values.");
+    m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
+    m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
+          "The fewest decimals that all values but max_misses have, -1 if there are too many.");
     m.def("encode_integers", &encode_integers, "values"_a, "n_columns"_a,
           "Rows of unsigned integers, a model per column.");
     m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,
           "The rows, flattened.");
+    m.def("encode_rows", &encode_rows, "rows"_a, "stride"_a, "Rows of `stride` bytes.");
+    m.def("decode_rows", &decode_rows, "data"_a, "n_rows"_a, "stride"_a, "The rows, flattened.");
+    m.def("describe", &describe, "opposite"_a,
+          "Numbers of components, boundary loops, boundary edges and edges of a surface.");
 }

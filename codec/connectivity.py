@@ -1,0 +1,197 @@
+"""Triangles <-> a CLRSE word, the integers beside it, and the gluing of its pieces.
+
+The word codes oriented manifold pieces; where the mesh is not a manifold, several vertices of the
+pieces are one vertex of the mesh, and the gluing says which.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels
+from ebz.codec.errors import CorruptError
+from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
+from ebz.codec.models.table import Table
+
+Int32s = npt.NDArray[np.int32]
+Int64s = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class WordCounts:
+    """The integers that frame a word.
+
+    n_symbols: its length.  n_closed: components without a boundary, whose first triangle has no
+    symbol.  n_single: components of one triangle.  n_specials: special S.  n_copies: piece vertices
+    that are glued to an earlier one.
+    """
+
+    n_symbols: int
+    n_closed: int
+    n_single: int
+    n_specials: int
+    n_copies: int
+
+    @property
+    def n_faces(self) -> int:
+        return self.n_symbols + self.n_closed
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Corners in output order: half-edge 3i is the gate of face i.
+
+    opposite: (3m,) the half-edge across, -1 on a boundary.  piece_vertex: (3m,) vertices of the
+    manifold pieces.  vertex_of_piece: the mesh vertex of each, numbered by first use.
+    """
+
+    opposite: Int32s
+    piece_vertex: Int32s
+    vertex_of_piece: Int32s
+
+    @property
+    def vertex(self) -> Int32s:
+        """(3m,) the mesh vertex of each corner."""
+        return self.vertex_of_piece[self.piece_vertex]
+
+
+@dataclass(frozen=True)
+class EncodedWord:
+    """A word and what stands beside it."""
+
+    counts: WordCounts
+    symbols: npt.NDArray[np.uint8]  # C, L, R, S, E as 0 to 4, first triangle first
+    specials: Int64s  # (2 n_specials,) position in the word, half-edge met
+    word: bytes  # the symbols from the last to the first, under the model
+    special_integers: bytes
+    gluing: bytes
+
+
+@dataclass(frozen=True)
+class OutputOrder:
+    """Where the faces and vertices of the decoded mesh come from.
+
+    corners: (m,) the corner of the source that becomes the first corner of each face.
+    vertices: (n,) the source vertex of each vertex; those that no face uses come last.
+    """
+
+    corners: Int32s
+    vertices: Int64s
+
+    @property
+    def faces(self) -> Int32s:
+        """(m,) the source face of each face."""
+        return self.corners // 3
+
+
+def encode(
+    faces: npt.NDArray[Any], n_vertices: int, table: Table
+) -> tuple[EncodedWord, Surface, OutputOrder]:
+    """The word of any list of triangles; linear time but for sorting what is not manifold."""
+    used, compact = _compact(faces, n_vertices)
+    symbols, specials, n_closed, n_single, corners, opposite, piece_vertex, source = (
+        _kernels.encode_connectivity(compact.reshape(-1), len(used) if used is not None else n_vertices)
+    )
+    vertex_of_piece, first_uses = _number_by_first_use(source)
+    copies = np.flatnonzero(~first_uses)
+    counts = WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, len(copies))
+    encoded = EncodedWord(
+        counts,
+        symbols,
+        specials,
+        _kernels.encode_symbols(symbols, specials, *_arrays(table)),
+        _encode_specials(specials),
+        _encode_gluing(copies, vertex_of_piece),
+    )
+    order = source[first_uses].astype(np.int64)
+    order = order if used is None else used[order]
+    return (
+        encoded,
+        Surface(opposite, piece_vertex, vertex_of_piece),
+        OutputOrder(corners, _with_isolated(order, n_vertices)),
+    )
+
+
+def decode(
+    word: bytes, special_integers: bytes, gluing: bytes, counts: WordCounts, table: Table
+) -> tuple[EncodedWord, Surface]:
+    """The symbols and the surface of an encoded word; raises CorruptError where they contradict."""
+    specials = _decode_specials(special_integers, counts)
+    symbols, opposite, piece_vertex, n_pieces = _kernels.decode_connectivity(
+        np.frombuffer(word, np.uint8),
+        counts.n_symbols,
+        counts.n_closed,
+        counts.n_single,
+        specials,
+        *_arrays(table),
+    )
+    vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
+    encoded = EncodedWord(counts, symbols, specials, word, special_integers, gluing)
+    return encoded, Surface(opposite, piece_vertex, vertex_of_piece)
+
+
+def _arrays(table: Table) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint16]]:
+    return table.frequencies.reshape(-1), table.successors.reshape(-1)
+
+
+def _compact(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Int64s | None, Int32s]:
+    """Indices of 32 bits; where many vertices are unused, only the used ones are numbered."""
+    if n_vertices <= max(4 * faces.size, 1024):
+        return None, np.ascontiguousarray(faces, np.int32)
+    used, compact = np.unique(faces, return_inverse=True)
+    return used.astype(np.int64), compact.astype(np.int32)
+
+
+def _number_by_first_use(source: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
+    """Numbers for repeated items by first appearance, and which entries are first appearances."""
+    entries = np.arange(len(source), dtype=np.int32)
+    first = np.zeros(int(source.max(initial=-1)) + 1, np.int32)
+    first[source[::-1]] = entries[::-1]  # of repeated indices, the last assignment stays
+    is_first = first[source] == entries
+    number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
+    return number[first[source]], is_first
+
+
+def _with_isolated(order: Int64s, n_vertices: int) -> Int64s:
+    if len(order) == n_vertices:
+        return order
+    isolated = np.ones(n_vertices, bool)
+    isolated[order] = False
+    return np.concatenate([order, np.flatnonzero(isolated)])
+
+
+def _encode_specials(specials: Int64s) -> bytes:
+    """Gaps between positions, and how far on in the word the half-edge is that each meets."""
+    positions, meets = specials[0::2], specials[1::2]
+    return encode_columns(gaps(positions), meets - 2 * positions - 2)
+
+
+def _decode_specials(data: bytes, counts: WordCounts) -> Int64s:
+    gap, ahead = decode_columns(data, counts.n_specials, 2)
+    positions = from_gaps(gap)
+    meets = ahead.astype(np.int64) + 2 * positions + 2
+    if (np.diff(positions, prepend=-1) <= 0).any() or (positions >= counts.n_symbols).any():
+        raise CorruptError("special S: positions do not ascend within the word")
+    return np.column_stack([positions, meets]).reshape(-1)
+
+
+def _encode_gluing(copies: Int64s, vertex_of_piece: Int32s) -> bytes:
+    """Gaps between the copies, and each copy's vertex as a step from the copy's before it."""
+    vertices = vertex_of_piece[copies].astype(np.int64)
+    return encode_columns(gaps(copies), zigzag(np.diff(vertices, prepend=0)))
+
+
+def _decode_gluing(data: bytes, n_copies: int, n_pieces: int) -> Int32s:
+    gap, steps = decode_columns(data, n_copies, 2)
+    copies, vertices = from_gaps(gap), np.cumsum(unzigzag(steps))
+    if (np.diff(copies, prepend=-1) <= 0).any() or (copies >= n_pieces).any():
+        raise CorruptError("gluing: copies do not ascend within the vertices of the pieces")
+    is_first = np.ones(n_pieces, bool)
+    is_first[copies] = False
+    number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
+    if ((vertices < 0) | (vertices > number[copies])).any():
+        raise CorruptError("gluing: a copy of a vertex that is not yet there")
+    number[copies] = vertices
+    return number

@@ -1,0 +1,50 @@
+"""The encoded mesh as a structure: what a container stores, before any byte is laid out."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ebz.codec.connectivity import WordCounts
+from ebz.codec.lattice import Lattice
+from ebz.codec.models.table import Table
+
+
+@dataclass(frozen=True)
+class EncodedArray:
+    """An attribute: `shape` is that of one entry, `data` codes all entries in output order."""
+
+    name: str
+    dtype: np.dtype[Any]
+    shape: tuple[int, ...]
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Streams:
+    """Entropy-coded bytes, by what they hold."""
+
+    word: bytes
+    special_integers: bytes
+    gluing: bytes
+    positions: bytes
+    exception_rows: bytes
+    exception_values: bytes
+    rotations: bytes | None  # None: the first corner of a face says nothing
+
+
+@dataclass(frozen=True)
+class EncodedMesh:
+    """Everything from which `pipeline.decode` restores a mesh."""
+
+    dtype: np.dtype[Any]
+    counts: WordCounts
+    n_isolated: int
+    n_exceptions: int
+    lattice: Lattice
+    table: Table
+    streams: Streams
+    vertex_attributes: list[EncodedArray] = field(default_factory=list)
+    face_attributes: list[EncodedArray] = field(default_factory=list)
+    metadata: bytes = b""
+    digest: bytes = b""

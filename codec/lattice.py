@@ -1,0 +1,199 @@
+"""Floats <-> integers: the lattice on which coordinates are predicted and coded.
+
+A lattice turns coordinates into 64-bit integers and back.  What does not come back as it must is an
+exception, stored bit for bit.  Both directions are IEEE operations on whole arrays, correctly rounded,
+so every machine gets the same integers and the same coordinates.
+
+Fitting depends on the set of coordinates alone, not on their order, and gives the same lattice for the
+coordinates it decodes to: that makes compression canonical.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels
+from ebz.codec.errors import MeshError
+
+Floats = npt.NDArray[Any]
+Integers = npt.NDArray[np.int64]
+
+MAX_BITS = 30
+MAX_MULTIPLE = 2.0**40
+# A float32 has nine significant digits at most; beyond ten decimals a lattice is as fine as the floats.
+MAX_DIGITS = {4: 10, 8: 15}
+# An exception costs some 40 bits and a coordinate on a lattice saves about 8.
+MISSES_SHIFT = 6
+
+
+@dataclass(frozen=True)
+class FloatLattice:
+    """Every float of the dtype is a point: the bits of the float, ordered as the floats are."""
+
+    kind = "float"
+
+    def integers(self, coordinates: Floats) -> Integers:
+        bits = _bits(coordinates).astype(np.int64)
+        return np.where(bits < 0, bits ^ _magnitude_mask(coordinates.dtype), bits)
+
+    def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        bits = np.where(integers < 0, integers ^ _magnitude_mask(dtype), integers)
+        return bits.astype(f"i{dtype.itemsize}").view(dtype)
+
+
+@dataclass(frozen=True)
+class DecimalLattice:
+    """Multiples of 10^-digits, correctly rounded to the dtype."""
+
+    digits: int
+    kind = "decimal"
+
+    def integers(self, coordinates: Floats) -> Integers:
+        return _to_integers(coordinates.astype(np.float64) * 10.0**self.digits)
+
+    def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        return (integers / 10.0**self.digits).astype(dtype)
+
+
+@dataclass(frozen=True)
+class BoxLattice:
+    """2^bits points along the longest side of the bounding box, starting at its lower corner."""
+
+    bits: int
+    origin: tuple[float, float, float]
+    side: float
+    kind = "box"
+
+    @property
+    def step(self) -> float:
+        """The distance of neighbouring points, in model units."""
+        return self.side / (2**self.bits - 1)
+
+    def integers(self, coordinates: Floats) -> Integers:
+        offsets = coordinates.astype(np.float64) - np.array(self.origin)
+        return _to_integers(offsets / self.step if self.step else np.zeros_like(offsets))
+
+    def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        return (np.array(self.origin) + integers * self.step).astype(dtype)
+
+
+@dataclass(frozen=True)
+class StepLattice:
+    """Multiples of a step in model units, wherever the mesh is."""
+
+    step: float
+    max_error: float
+    kind = "step"
+
+    def integers(self, coordinates: Floats) -> Integers:
+        return _to_integers(coordinates.astype(np.float64) / self.step)
+
+    def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        return (integers * self.step).astype(dtype)
+
+
+Lattice = FloatLattice | DecimalLattice | BoxLattice | StepLattice
+
+
+@dataclass(frozen=True)
+class Points:
+    """Coordinates on a lattice: (n, 3) integers, and which entries (flat, ascending) are exceptions."""
+
+    lattice: Lattice
+    integers: Integers
+    exceptions: npt.NDArray[np.int64]
+
+
+def fit(coordinates: Floats, bits: int | None = None, max_error: float | None = None) -> Points:
+    """The coordinates on the lattice asked for; without bits and max_error, nothing is lost.
+
+    A lattice finer than the floats themselves gives way to one that loses nothing.
+    Raises MeshError where a coordinate that is not finite would have to be rounded.
+    """
+    if bits is None and not max_error:
+        return _lossless(coordinates)
+    _require_finite(coordinates)
+    points = _in_box(coordinates, bits) if bits is not None else _within(coordinates, max_error or 0.0)
+    return points or _lossless(coordinates)
+
+
+def restore(points: Points, dtype: np.dtype[Any], exact: Floats) -> Floats:
+    """The (n, 3) coordinates that decoding yields; `exact` holds the exceptions in order."""
+    coordinates = points.lattice.coordinates(points.integers, dtype)
+    coordinates.reshape(-1)[points.exceptions] = exact
+    return coordinates
+
+
+def _lossless(coordinates: Floats) -> Points:
+    flat = coordinates.reshape(-1)
+    misses = flat.size >> MISSES_SHIFT
+    digits = _kernels.decimal_digits(flat, MAX_DIGITS[flat.itemsize], misses)
+    lattice: Lattice = DecimalLattice(digits) if digits >= 0 and flat.size else FloatLattice()
+    return _with_exceptions(lattice, coordinates)
+
+
+def _with_exceptions(lattice: Lattice, coordinates: Floats) -> Points:
+    integers = lattice.integers(coordinates)
+    decoded = lattice.coordinates(integers, coordinates.dtype)
+    return Points(lattice, integers, np.flatnonzero(_bits(decoded) != _bits(coordinates)))
+
+
+def _in_box(coordinates: Floats, bits: int) -> Points | None:
+    lattice = _box(coordinates, bits)
+    if lattice is None:
+        return None
+    integers = lattice.integers(coordinates)
+    decoded = lattice.coordinates(integers, coordinates.dtype)
+    again = _box(decoded, bits)
+    # Where the step is close to the resolution of the floats, the box or a point may move.
+    if again != lattice or not np.array_equal(lattice.integers(decoded), integers):
+        return None
+    return Points(lattice, integers, np.zeros(0, np.int64))
+
+
+def _box(coordinates: Floats, bits: int) -> BoxLattice | None:
+    if not len(coordinates):
+        return None
+    # Adding zero turns -0.0 into 0.0: which of the two a minimum yields depends on the order.
+    low = coordinates.min(axis=0).astype(np.float64) + 0.0
+    side = float((coordinates.max(axis=0).astype(np.float64) - low).max())
+    if not np.isfinite(side):
+        return None
+    return BoxLattice(bits, (float(low[0]), float(low[1]), float(low[2])), side)
+
+
+def _within(coordinates: Floats, max_error: float) -> Points | None:
+    # The slack leaves room for rounding to the dtype, so that exceptions are rare.
+    lattice = StepLattice(2 * max_error * (1 - 2.0**-12), max_error)
+    largest = float(np.abs(coordinates).max(initial=0))
+    if not lattice.step or largest / lattice.step > MAX_MULTIPLE:
+        return None
+    integers = lattice.integers(coordinates)
+    decoded = lattice.coordinates(integers, coordinates.dtype)
+    off = np.abs(decoded.astype(np.float64) - coordinates.astype(np.float64)) > max_error
+    if not np.array_equal(lattice.integers(decoded), integers):
+        return None
+    return Points(lattice, integers, np.flatnonzero(off))
+
+
+def _require_finite(coordinates: Floats) -> None:
+    if not np.isfinite(coordinates).all():
+        row, axis = np.argwhere(~np.isfinite(coordinates))[0]
+        value = coordinates[row, axis]
+        raise MeshError(f"vertex {row}: {'xyz'[axis]} is {value}, which cannot be quantised")
+
+
+def _to_integers(multiples: npt.NDArray[np.float64]) -> Integers:
+    # What is no multiple in range becomes some integer in range, and then an exception.
+    inside = np.abs(multiples) <= MAX_MULTIPLE
+    return np.rint(np.where(inside, multiples, 0.0)).astype(np.int64)
+
+
+def _bits(coordinates: Floats) -> npt.NDArray[Any]:
+    return coordinates.view(f"i{coordinates.dtype.itemsize}")
+
+
+def _magnitude_mask(dtype: np.dtype[Any]) -> int:
+    return int((1 << (8 * dtype.itemsize - 1)) - 1)

@@ -1,0 +1,189 @@
+"""All stages in order: mesh -> word and visiting order -> lattice -> residuals -> streams, and back."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels, attributes, connectivity, lattice, metadata
+from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface
+from ebz.codec.digest import digest
+from ebz.codec.encoded import EncodedMesh, Streams
+from ebz.codec.errors import CorruptError
+from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
+from ebz.codec.lattice import Points
+from ebz.codec.mesh import Mesh, face_dtype
+from ebz.codec.models.table import Table
+
+Progress = Callable[[str, int, int], None]
+N_STAGES = 4
+
+# How the kernels know the space in which predictions are made (Space in positions.hpp).
+LATTICE_SPACE, FLOAT32_SPACE, FLOAT64_SPACE = range(3)
+
+
+@dataclass(frozen=True)
+class Decoded:
+    """A decoded mesh and, for statistics, what its connectivity was made of."""
+
+    mesh: Mesh
+    word: EncodedWord
+    surface: Surface
+
+
+def encode(
+    mesh: Mesh,
+    table: Table,
+    *,
+    bits: int | None = None,
+    max_error: float | None = None,
+    progress: Progress | None = None,
+) -> EncodedMesh:
+    """Every part of a mesh as streams; nothing is lost unless bits or max_error say so."""
+    report = progress or _silent
+    report("connectivity", 0, N_STAGES)
+    word, surface, order = connectivity.encode(mesh.faces, len(mesh.vertices), table)
+    report("lattice", 1, N_STAGES)
+    coordinates = mesh.vertices[order.vertices]
+    points = lattice.fit(coordinates, bits, max_error)
+    report("positions", 2, N_STAGES)
+    positions = _encode_positions(surface, points, coordinates.dtype)
+    exact = coordinates.reshape(-1)[points.exceptions]
+    report("attributes", 3, N_STAGES)
+    encoded = EncodedMesh(
+        dtype=coordinates.dtype,
+        counts=word.counts,
+        n_isolated=len(coordinates) - _n_used(surface),
+        n_exceptions=len(points.exceptions),
+        lattice=points.lattice,
+        table=table,
+        streams=Streams(
+            word=word.word,
+            special_integers=word.special_integers,
+            gluing=word.gluing,
+            positions=positions,
+            exception_rows=encode_columns(gaps(points.exceptions)),
+            exception_values=_encode_values(exact),
+            rotations=_encode_rotations(mesh, order),
+        ),
+        vertex_attributes=attributes.encode(mesh.vertex_attributes, order.vertices),
+        face_attributes=attributes.encode(mesh.face_attributes, order.faces),
+        metadata=metadata.encode(mesh.metadata) if mesh.metadata else b"",
+    )
+    decoded = _reordered(mesh, order, surface, lattice.restore(points, coordinates.dtype, exact))
+    report("done", N_STAGES, N_STAGES)
+    return replace(encoded, digest=digest(decoded))
+
+
+def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded:
+    """The mesh; raises CorruptError where the streams contradict each other or the digest."""
+    report = progress or _silent
+    streams, counts = encoded.streams, encoded.counts
+    report("connectivity", 0, N_STAGES)
+    word, surface = connectivity.decode(
+        streams.word, streams.special_integers, streams.gluing, counts, encoded.table
+    )
+    n_vertices = _n_used(surface) + encoded.n_isolated
+    report("positions", 1, N_STAGES)
+    integers = _decode_positions(streams.positions, surface, n_vertices, encoded)
+    points = Points(encoded.lattice, integers, _decode_exceptions(encoded, n_vertices))
+    report("lattice", 2, N_STAGES)
+    exact = _decode_values(streams.exception_values, encoded)
+    vertices = lattice.restore(points, encoded.dtype, exact)
+    report("attributes", 3, N_STAGES)
+    faces = surface.vertex.reshape(-1, 3)
+    mesh = Mesh(
+        vertices=vertices,
+        faces=_rotate(faces, streams.rotations).astype(face_dtype(n_vertices), copy=False),
+        vertex_attributes=attributes.decode(encoded.vertex_attributes, n_vertices),
+        face_attributes=attributes.decode(encoded.face_attributes, counts.n_faces),
+        metadata=metadata.decode(encoded.metadata) if encoded.metadata else {},
+    )
+    report("done", N_STAGES, N_STAGES)
+    if digest(mesh) != encoded.digest:
+        raise CorruptError("the digest of the decoded mesh is not the one stored")
+    return Decoded(mesh, word, surface)
+
+
+def _silent(stage: str, done: int, total: int) -> None:
+    pass
+
+
+def _n_used(surface: Surface) -> int:
+    return int(surface.vertex_of_piece.max(initial=-1)) + 1
+
+
+def _space(encoded_lattice: lattice.Lattice, dtype: np.dtype[Any]) -> int:
+    if encoded_lattice.kind != "float":
+        return LATTICE_SPACE
+    return FLOAT32_SPACE if dtype.itemsize == 4 else FLOAT64_SPACE
+
+
+def _encode_positions(surface: Surface, points: Points, dtype: np.dtype[Any]) -> bytes:
+    values, space = points.integers.reshape(-1), _space(points.lattice, dtype)
+    return _kernels.encode_positions(
+        surface.opposite, surface.vertex, len(points.integers), values, space
+    )
+
+
+def _decode_positions(
+    data: bytes, surface: Surface, n_vertices: int, encoded: EncodedMesh
+) -> lattice.Integers:
+    stream, space = np.frombuffer(data, np.uint8), _space(encoded.lattice, encoded.dtype)
+    values = _kernels.decode_positions(
+        stream, surface.opposite, surface.vertex, n_vertices, space
+    )
+    return values.reshape(-1, 3)
+
+
+def _encode_values(exact: lattice.Floats) -> bytes:
+    return exact.astype(exact.dtype.newbyteorder("<")).tobytes()
+
+
+def _decode_values(data: bytes, encoded: EncodedMesh) -> lattice.Floats:
+    little = encoded.dtype.newbyteorder("<")
+    if len(data) != encoded.n_exceptions * little.itemsize:
+        raise CorruptError(f"exceptions: {len(data)} bytes for {encoded.n_exceptions} values")
+    return np.frombuffer(data, little).astype(encoded.dtype, copy=False)
+
+
+def _decode_exceptions(encoded: EncodedMesh, n_vertices: int) -> npt.NDArray[np.int64]:
+    (gap,) = decode_columns(encoded.streams.exception_rows, encoded.n_exceptions, 1)
+    rows = from_gaps(gap)
+    if (np.diff(rows, prepend=-1) <= 0).any() or (rows >= 3 * n_vertices).any():
+        raise CorruptError("exceptions: rows do not ascend within the coordinates")
+    return rows
+
+
+def _encode_rotations(mesh: Mesh, order: OutputOrder) -> bytes | None:
+    """How far each source face's first corner is from the gate, where it may matter."""
+    if not attributes.keeps_rotation(mesh.face_attributes):
+        return None
+    return encode_columns(-order.corners % 3)
+
+
+def _rotate(faces: npt.NDArray[np.int32], rotations: bytes | None) -> npt.NDArray[np.int32]:
+    if rotations is None:
+        return faces
+    (first,) = decode_columns(rotations, len(faces), 1)
+    if (first > 2).any():
+        raise CorruptError("rotations: a face has three corners only")
+    corners = (first.astype(np.intp)[:, None] + np.arange(3)) % 3
+    return np.take_along_axis(faces, corners, axis=1)
+
+
+def _reordered(mesh: Mesh, order: OutputOrder, surface: Surface, vertices: lattice.Floats) -> Mesh:
+    """The mesh as decoding will yield it."""
+    faces = surface.vertex.reshape(-1, 3)
+    if attributes.keeps_rotation(mesh.face_attributes):
+        first = (-order.corners % 3).astype(np.intp)
+        faces = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
+    return Mesh(
+        vertices=vertices,
+        faces=faces.astype(face_dtype(len(vertices)), copy=False),
+        vertex_attributes={k: v[order.vertices] for k, v in mesh.vertex_attributes.items()},
+        face_attributes={k: v[order.faces] for k, v in mesh.face_attributes.items()},
+        metadata=mesh.metadata,
+    )
