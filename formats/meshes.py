@@ -1,0 +1,60 @@
+"""Mesh files of every format, by the format's name; formats are imported when they are used."""
+
+from collections.abc import Callable
+from typing import Protocol
+
+from ebz.codec.errors import OptionError
+from ebz.codec.mesh import Mesh
+from ebz.formats.detect import FORMATS, format_of, format_of_suffix, suffix_of
+
+__all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"]
+
+
+class Reader(Protocol):
+    def __call__(self, data: bytes, *, triangulate: bool = False) -> Mesh: ...
+
+
+def read_mesh(
+    data: bytes | bytearray | memoryview,
+    *,
+    format: str | None = None,
+    name: str | None = None,
+    triangulate: bool = False,
+) -> Mesh:
+    """The mesh of a file's bytes; metadata["format"] says which format it had.
+
+    format: one of FORMATS; None: by content, else by the suffix of `name`.
+    triangulate: cut polygons of more than three corners into fans instead of refusing them.
+    Warns (DroppedWarning) of what is left out. Raises MeshError, OptionError.
+    """
+    content = data if isinstance(data, bytes) else bytes(data)
+    chosen = format_of(content, name) if format is None else format
+    return _reader(chosen)(content, triangulate=triangulate)
+
+
+def write_mesh(mesh: Mesh, format: str) -> bytes:
+    """The mesh as a file of `format`, in the flavour that its metadata remembers.
+
+    Warns (DroppedWarning) of what the format cannot carry. Raises MeshError, OptionError.
+    """
+    return _writer(format)(mesh)
+
+
+def _reader(format: str) -> Reader:
+    if format == "ply":
+        from ebz.formats.ply import read_ply  # noqa: PLC0415
+
+        return read_ply
+    raise _unknown(format)
+
+
+def _writer(format: str) -> Callable[[Mesh], bytes]:
+    if format == "ply":
+        from ebz.formats.ply_write import write_ply  # noqa: PLC0415
+
+        return write_ply
+    raise _unknown(format)
+
+
+def _unknown(format: str) -> OptionError:
+    return OptionError(f"unknown mesh format {format!r}: one of {', '.join(FORMATS)}")
