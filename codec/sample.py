@@ -209,9 +209,9 @@ def subdivide(vertices: Floats, faces: Indices, k: int) -> tuple[Floats, Indices
 
     steps = np.arange(1, k)[None, :, None]
     on_edges = (vertices[low][:, None] * (k - steps) + vertices[high][:, None] * steps) / k
-    a, b, c = (vertices[faces[:, corner]][:, None] for corner in range(3))
+    corners = vertices[faces][:, :, None]
     w = weights[:, None, inside, None]
-    in_faces = (a * w[0] + b * w[1] + c * w[2]) / k
+    in_faces = (corners[:, 0] * w[0] + corners[:, 1] * w[1] + corners[:, 2] * w[2]) / k
     points = np.concatenate([vertices, on_edges.reshape(-1, 3), in_faces.reshape(-1, 3)])
     return points, index[:, _lattice_faces(k, i, j)].reshape(-1, 3)
 
