@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from ebz.codec import sample
 
+from ebz.codec import sample
 from samples import surfaces
 from samples.writers import ascii_stl, binary_stl, obj, off, ply
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
 from ebz.codec.sample import circle, grid_faces, uniform
 
 Array = npt.NDArray[Any]
