@@ -9,7 +9,7 @@ SOURCES := $(shell find api codec formats cli -name '*.py' -o -name '*.pyi' -o -
 # Python files are links in the editable install: only a new file list needs a reinstall.
 KERNELS := $(filter codec/kernels/%,$(SOURCES))
 
-.PHONY: install demo test check bench clean files
+.PHONY: install demo test check stubs bench clean files
 
 install: $(STAMP)
 
@@ -37,6 +37,9 @@ check: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy -p ebz
+
+stubs: $(STAMP)
+	$(BIN)/python -m nanobind.stubgen -q -m ebz.codec._kernels -o codec/_kernels.pyi
 
 bench: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[bench]'

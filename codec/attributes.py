@@ -17,20 +17,12 @@ def encode(attributes: Attributes, order: npt.NDArray[Any]) -> list[EncodedArray
 
 
 def decode(arrays: list[EncodedArray], n: int) -> Attributes:
-    """The attributes of n entries; whatever the bytes are, arrays of the declared shape come back."""
+    """The attributes of n entries; whatever the bytes are, arrays of that shape come back."""
     return {array.name: _decode(array, n) for array in arrays}
 
 
-def entry_size(array: EncodedArray) -> int:
-    """Bytes of one entry."""
-    size = array.dtype.itemsize
-    for extent in array.shape:
-        size *= extent
-    return size
-
-
 def keeps_rotation(face_attributes: Attributes) -> bool:
-    """Whether the first corner of a face matters: several values per face may stand for its corners."""
+    """Whether the first corner of a face matters: several values may stand for its corners."""
     return any(values.ndim > 1 for values in face_attributes.values())
 
 
@@ -43,7 +35,7 @@ def _encode(name: str, values: npt.NDArray[Any]) -> EncodedArray:
 
 
 def _decode(array: EncodedArray, n: int) -> npt.NDArray[Any]:
-    shape, stride = (n, *array.shape), entry_size(array)
+    shape, stride = (n, *array.shape), array.entry_size
     if not n or not stride:
         return np.zeros(shape, array.dtype)
     rows = _kernels.decode_rows(np.frombuffer(array.data, np.uint8), n, stride)

@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.errors import CorruptError
+from ebz.codec.errors import CorruptError, MeshError
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
+from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.table import Table
 
 Int32s = npt.NDArray[np.int32]
@@ -89,13 +90,13 @@ class OutputOrder:
 def encode(
     faces: npt.NDArray[Any], n_vertices: int, table: Table
 ) -> tuple[EncodedWord, Surface, OutputOrder]:
-    """The word of any list of triangles; linear time but for sorting what is not manifold."""
-    used, compact = _compact(faces, n_vertices)
-    symbols, specials, n_closed, n_single, corners, opposite, piece_vertex, source = (
-        _kernels.encode_connectivity(compact.reshape(-1), len(used) if used is not None else n_vertices)
-    )
-    vertex_of_piece, first_uses = _number_by_first_use(source)
-    copies = np.flatnonzero(~first_uses)
+    """The word of any list of triangles; linear time but for sorting what is not manifold.
+
+    Raises MeshError where there are more faces or vertices than can be coded.
+    """
+    kernel, surface, order = _traverse(faces, n_vertices)
+    symbols, specials, n_closed, n_single = kernel
+    copies = _copies(surface)
     counts = WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, len(copies))
     encoded = EncodedWord(
         counts,
@@ -103,15 +104,9 @@ def encode(
         specials,
         _kernels.encode_symbols(symbols, specials, *_arrays(table)),
         _encode_specials(specials),
-        _encode_gluing(copies, vertex_of_piece),
+        _encode_gluing(copies, surface.vertex_of_piece),
     )
-    order = source[first_uses].astype(np.int64)
-    order = order if used is None else used[order]
-    return (
-        encoded,
-        Surface(opposite, piece_vertex, vertex_of_piece),
-        OutputOrder(corners, _with_isolated(order, n_vertices)),
-    )
+    return encoded, surface, order
 
 
 def decode(
@@ -132,8 +127,42 @@ def decode(
     return encoded, Surface(opposite, piece_vertex, vertex_of_piece)
 
 
+def traverse(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Surface, OutputOrder]:
+    """The order in which a mesh with these faces would be decoded."""
+    _, surface, order = _traverse(faces, n_vertices)
+    return surface, order
+
+
 def _arrays(table: Table) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint16]]:
     return table.frequencies.reshape(-1), table.successors.reshape(-1)
+
+
+def _traverse(
+    faces: npt.NDArray[Any], n_vertices: int
+) -> tuple[tuple[npt.NDArray[np.uint8], Int64s, int, int], Surface, OutputOrder]:
+    if len(faces) > MAX_FACES or n_vertices > MAX_VERTICES:
+        raise MeshError(
+            f"{len(faces)} faces and {n_vertices} vertices: at most {MAX_FACES} and {MAX_VERTICES}"
+        )
+    used, compact = _compact(faces, n_vertices)
+    n_compact = n_vertices if used is None else len(used)
+    symbols, specials, n_closed, n_single, corners, opposite, piece_vertex, source = (
+        _kernels.encode_connectivity(compact.reshape(-1), n_compact)
+    )
+    vertex_of_piece, is_first = _number_by_first_use(source)
+    order = source[is_first].astype(np.int64)
+    order = order if used is None else used[order]
+    return (
+        (symbols, specials, n_closed, n_single),
+        Surface(opposite, piece_vertex, vertex_of_piece),
+        OutputOrder(corners, _with_isolated(order, n_vertices)),
+    )
+
+
+def _copies(surface: Surface) -> Int64s:
+    """The piece vertices that are glued to an earlier one; the others have ascending numbers."""
+    latest = np.maximum.accumulate(surface.vertex_of_piece)
+    return np.flatnonzero(np.diff(latest, prepend=-1) == 0)
 
 
 def _compact(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Int64s | None, Int32s]:

@@ -13,7 +13,7 @@ SIZE = 8
 
 
 def digest(mesh: Mesh) -> bytes:
-    """XXH3 (64 bits) of arrays in little-endian order, with names, dtypes and shapes, and metadata."""
+    """XXH3 (64 bits) of the arrays in little-endian order, their names and shapes, and metadata."""
     state = xxhash.xxh3_64()
     _add(state, "vertices", mesh.vertices)
     _add(state, "faces", mesh.faces)

@@ -1,5 +1,6 @@
 """The encoded mesh as a structure: what a container stores, before any byte is laid out."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +19,11 @@ class EncodedArray:
     dtype: np.dtype[Any]
     shape: tuple[int, ...]
     data: bytes
+
+    @property
+    def entry_size(self) -> int:
+        """Bytes of one entry."""
+        return math.prod(self.shape, start=self.dtype.itemsize)
 
 
 @dataclass(frozen=True)
@@ -39,7 +45,7 @@ class EncodedMesh:
 
     dtype: np.dtype[Any]
     counts: WordCounts
-    n_isolated: int
+    n_vertices: int
     n_exceptions: int
     lattice: Lattice
     table: Table

@@ -26,7 +26,7 @@ def gaps(ascending: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
 
 
 def from_gaps(values: Columns) -> npt.NDArray[np.int64]:
-    """The ascending sequence with those gaps; what overflows wraps and is for the caller to refuse."""
+    """The ascending sequence with those gaps; overflow wraps, for the caller to refuse."""
     return np.cumsum(values.astype(np.int64) + 1) - 1
 
 

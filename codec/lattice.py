@@ -1,11 +1,11 @@
 """Floats <-> integers: the lattice on which coordinates are predicted and coded.
 
-A lattice turns coordinates into 64-bit integers and back.  What does not come back as it must is an
-exception, stored bit for bit.  Both directions are IEEE operations on whole arrays, correctly rounded,
-so every machine gets the same integers and the same coordinates.
+A lattice turns coordinates into 64-bit integers and back.  What does not come back as it must is
+an exception, stored bit for bit.  Both directions are IEEE operations on whole arrays, correctly
+rounded, so every machine gets the same integers and the same coordinates.
 
-Fitting depends on the set of coordinates alone, not on their order, and gives the same lattice for the
-coordinates it decodes to: that makes compression canonical.
+Fitting depends on the set of coordinates alone, not on their order, and gives the same lattice for
+the coordinates it decodes to: that makes compression canonical.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,8 @@ Integers = npt.NDArray[np.int64]
 
 MAX_BITS = 30
 MAX_MULTIPLE = 2.0**40
-# A float32 has nine significant digits at most; beyond ten decimals a lattice is as fine as the floats.
+# A lattice of many more points than a float has predicts worse than the floats themselves.
+MAX_POINTS = {4: 2.0**26, 8: MAX_MULTIPLE}
 MAX_DIGITS = {4: 10, 8: 15}
 # An exception costs some 40 bits and a coordinate on a lattice saves about 8.
 MISSES_SHIFT = 6
@@ -35,12 +36,13 @@ class FloatLattice:
     kind = "float"
 
     def integers(self, coordinates: Floats) -> Integers:
-        bits = _bits(coordinates).astype(np.int64)
+        bits: Integers = _bits(coordinates).astype(np.int64)
         return np.where(bits < 0, bits ^ _magnitude_mask(coordinates.dtype), bits)
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
         bits = np.where(integers < 0, integers ^ _magnitude_mask(dtype), integers)
-        return bits.astype(f"i{dtype.itemsize}").view(dtype)
+        restored: Floats = bits.astype(f"i{dtype.itemsize}").view(dtype)
+        return restored
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class BoxLattice:
     @property
     def step(self) -> float:
         """The distance of neighbouring points, in model units."""
-        return self.side / (2**self.bits - 1)
+        return self.side / ((1 << self.bits) - 1)
 
     def integers(self, coordinates: Floats) -> Integers:
         offsets = coordinates.astype(np.float64) - np.array(self.origin)
@@ -81,11 +83,16 @@ class BoxLattice:
 
 @dataclass(frozen=True)
 class StepLattice:
-    """Multiples of a step in model units, wherever the mesh is."""
+    """Multiples of a step, wherever the mesh is; the step is just below twice max_error."""
 
-    step: float
     max_error: float
     kind = "step"
+
+    @property
+    def step(self) -> float:
+        """The distance of neighbouring points, in model units."""
+        # The slack leaves room for rounding to the dtype, so that exceptions are rare.
+        return 2 * self.max_error * (1 - 2.0**-12)
 
     def integers(self, coordinates: Floats) -> Integers:
         return _to_integers(coordinates.astype(np.float64) / self.step)
@@ -99,7 +106,7 @@ Lattice = FloatLattice | DecimalLattice | BoxLattice | StepLattice
 
 @dataclass(frozen=True)
 class Points:
-    """Coordinates on a lattice: (n, 3) integers, and which entries (flat, ascending) are exceptions."""
+    """Coordinates on a lattice: (n, 3) integers, and the flat, ascending rows of exceptions."""
 
     lattice: Lattice
     integers: Integers
@@ -115,7 +122,9 @@ def fit(coordinates: Floats, bits: int | None = None, max_error: float | None = 
     if bits is None and not max_error:
         return _lossless(coordinates)
     _require_finite(coordinates)
-    points = _in_box(coordinates, bits) if bits is not None else _within(coordinates, max_error or 0.0)
+    points = (
+        _in_box(coordinates, bits) if bits is not None else _within(coordinates, max_error or 0.0)
+    )
     return points or _lossless(coordinates)
 
 
@@ -130,8 +139,11 @@ def _lossless(coordinates: Floats) -> Points:
     flat = coordinates.reshape(-1)
     misses = flat.size >> MISSES_SHIFT
     digits = _kernels.decimal_digits(flat, MAX_DIGITS[flat.itemsize], misses)
-    lattice: Lattice = DecimalLattice(digits) if digits >= 0 and flat.size else FloatLattice()
-    return _with_exceptions(lattice, coordinates)
+    if digits >= 0 and flat.size:
+        points = _with_exceptions(DecimalLattice(digits), coordinates)
+        if np.abs(points.integers).max() < MAX_POINTS[flat.itemsize]:
+            return points
+    return _with_exceptions(FloatLattice(), coordinates)
 
 
 def _with_exceptions(lattice: Lattice, coordinates: Floats) -> Points:
@@ -165,8 +177,7 @@ def _box(coordinates: Floats, bits: int) -> BoxLattice | None:
 
 
 def _within(coordinates: Floats, max_error: float) -> Points | None:
-    # The slack leaves room for rounding to the dtype, so that exceptions are rare.
-    lattice = StepLattice(2 * max_error * (1 - 2.0**-12), max_error)
+    lattice = StepLattice(max_error)
     largest = float(np.abs(coordinates).max(initial=0))
     if not lattice.step or largest / lattice.step > MAX_MULTIPLE:
         return None

@@ -8,8 +8,11 @@ import numpy.typing as npt
 
 from ebz.codec.errors import MeshError
 
-type_vertices = (np.dtype(np.float32), np.dtype(np.float64))
+VERTEX_DTYPES = (np.dtype(np.float32), np.dtype(np.float64))
 INT32_VERTICES = 2**31
+# What can be coded: half-edges and vertices have indices of 32 bits inside the kernels.
+MAX_FACES = (2**31 - 1) // 3
+MAX_VERTICES = 2**31 - 1
 
 
 def face_dtype(n_vertices: int) -> np.dtype[Any]:
@@ -49,8 +52,10 @@ def _vertices(values: npt.ArrayLike) -> npt.NDArray[Any]:
     array = np.ascontiguousarray(values)
     if array.size == 0 and array.ndim < 2:
         array = np.zeros((0, 3), np.float32)
-    if array.dtype not in type_vertices:
-        if not np.issubdtype(array.dtype, np.number) or np.issubdtype(array.dtype, np.complexfloating):
+    if array.dtype not in VERTEX_DTYPES:
+        if not np.issubdtype(array.dtype, np.number) or np.issubdtype(
+            array.dtype, np.complexfloating
+        ):
             raise MeshError(f"vertices: dtype {array.dtype} is not a real number")
         array = array.astype(np.float64)
     if array.ndim != 2 or array.shape[1] != 3:

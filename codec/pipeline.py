@@ -1,4 +1,4 @@
-"""All stages in order: mesh -> word and visiting order -> lattice -> residuals -> streams, and back."""
+"""All stages in order: mesh -> word and order -> lattice -> residuals -> streams, and back."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -55,7 +55,7 @@ def encode(
     encoded = EncodedMesh(
         dtype=coordinates.dtype,
         counts=word.counts,
-        n_isolated=len(coordinates) - _n_used(surface),
+        n_vertices=len(coordinates),
         n_exceptions=len(points.exceptions),
         lattice=points.lattice,
         table=table,
@@ -85,9 +85,11 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     word, surface = connectivity.decode(
         streams.word, streams.special_integers, streams.gluing, counts, encoded.table
     )
-    n_vertices = _n_used(surface) + encoded.n_isolated
+    n_vertices = encoded.n_vertices
+    if surface.vertex_of_piece.max(initial=-1) >= n_vertices:
+        raise CorruptError(f"the word has more vertices than the {n_vertices} declared")
     report("positions", 1, N_STAGES)
-    integers = _decode_positions(streams.positions, surface, n_vertices, encoded)
+    integers = _decode_positions(surface, encoded)
     points = Points(encoded.lattice, integers, _decode_exceptions(encoded, n_vertices))
     report("lattice", 2, N_STAGES)
     exact = _decode_values(streams.exception_values, encoded)
@@ -111,10 +113,6 @@ def _silent(stage: str, done: int, total: int) -> None:
     pass
 
 
-def _n_used(surface: Surface) -> int:
-    return int(surface.vertex_of_piece.max(initial=-1)) + 1
-
-
 def _space(encoded_lattice: lattice.Lattice, dtype: np.dtype[Any]) -> int:
     if encoded_lattice.kind != "float":
         return LATTICE_SPACE
@@ -128,12 +126,14 @@ def _encode_positions(surface: Surface, points: Points, dtype: np.dtype[Any]) ->
     )
 
 
-def _decode_positions(
-    data: bytes, surface: Surface, n_vertices: int, encoded: EncodedMesh
-) -> lattice.Integers:
-    stream, space = np.frombuffer(data, np.uint8), _space(encoded.lattice, encoded.dtype)
+def _decode_positions(surface: Surface, encoded: EncodedMesh) -> lattice.Integers:
+    data = np.frombuffer(encoded.streams.positions, np.uint8)
     values = _kernels.decode_positions(
-        stream, surface.opposite, surface.vertex, n_vertices, space
+        data,
+        surface.opposite,
+        surface.vertex,
+        encoded.n_vertices,
+        _space(encoded.lattice, encoded.dtype),
     )
     return values.reshape(-1, 3)
 

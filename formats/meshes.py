@@ -42,7 +42,7 @@ def write_mesh(mesh: Mesh, format: str) -> bytes:
 
 def _reader(format: str) -> Reader:
     if format == "ply":
-        from ebz.formats.ply import read_ply  # noqa: PLC0415
+        from ebz.formats.ply import read_ply
 
         return read_ply
     raise _unknown(format)
@@ -50,7 +50,7 @@ def _reader(format: str) -> Reader:
 
 def _writer(format: str) -> Callable[[Mesh], bytes]:
     if format == "ply":
-        from ebz.formats.ply_write import write_ply  # noqa: PLC0415
+        from ebz.formats.ply_write import write_ply
 
         return write_ply
     raise _unknown(format)

@@ -1,7 +1,9 @@
 // The kernels as a Python module: the one file that knows of Python.  All of them release the GIL.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/tuple.h>
 
+#include <tuple>
 #include <utility>
 
 #include "byte_planes.hpp"
@@ -53,13 +55,15 @@ std::vector<ebz::SpecialS> specials_from(const Input<int64_t>& pairs) {
     return specials;
 }
 
-nb::tuple encode_connectivity(const Input<int32_t>& faces, int32_t n_vertices) {
+std::tuple<Array<uint8_t>, Array<int64_t>, int32_t, int32_t, Array<int32_t>, Array<int32_t>, Array<int32_t>,
+           Array<int32_t>>
+encode_connectivity(const Input<int32_t>& faces, int32_t n_vertices) {
     require_addressable(faces.size());
     ebz::EncodedConnectivity encoded =
         without_gil([&] { return ebz::encode_connectivity(view(faces), n_vertices); });
     std::vector<int64_t> specials;
     for (const ebz::SpecialS& s : encoded.word.specials) specials.insert(specials.end(), {s.position, s.meets});
-    return nb::make_tuple(to_numpy(std::move(encoded.word.symbols)), to_numpy(std::move(specials)),
+    return std::make_tuple(to_numpy(std::move(encoded.word.symbols)), to_numpy(std::move(specials)),
                           encoded.word.n_closed, encoded.word.n_single,
                           to_numpy(std::move(encoded.word.gates)),
                           to_numpy(std::move(encoded.connectivity.opposite)),
@@ -77,7 +81,7 @@ nb::bytes encode_symbols(const Input<uint8_t>& symbols, const Input<int64_t>& sp
     }));
 }
 
-nb::tuple decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
+std::tuple<Array<uint8_t>, Array<int32_t>, Array<int32_t>, int32_t> decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
                               int64_t n_single, const Input<int64_t>& specials,
                               const Input<uint32_t>& frequencies, const Input<uint16_t>& successors) {
     require_addressable(3 * static_cast<size_t>(n_symbols + n_closed));
@@ -87,7 +91,7 @@ nb::tuple decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, in
         return ebz::decode_connectivity(view(bytes), header, specials_from(specials),
                                         ebz::AutomatonModel(view(frequencies), view(successors)));
     });
-    return nb::make_tuple(to_numpy(std::move(decoded.symbols)),
+    return std::make_tuple(to_numpy(std::move(decoded.symbols)),
                           to_numpy(std::move(decoded.connectivity.opposite)),
                           to_numpy(std::move(decoded.connectivity.fans.vertex)),
                           decoded.connectivity.fans.n_vertices);
@@ -135,9 +139,9 @@ Array<uint8_t> decode_rows(const Input<uint8_t>& bytes, size_t n_rows, size_t st
     }));
 }
 
-nb::tuple describe(const Input<int32_t>& opposite) {
+std::tuple<int32_t, int32_t, int32_t, int32_t> describe(const Input<int32_t>& opposite) {
     const ebz::Topology topology = without_gil([&] { return ebz::describe(view(opposite)); });
-    return nb::make_tuple(topology.n_components, topology.n_boundary_loops, topology.n_boundary_edges,
+    return std::make_tuple(topology.n_components, topology.n_boundary_loops, topology.n_boundary_edges,
                           topology.n_edges);
 }
 

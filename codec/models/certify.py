@@ -140,7 +140,7 @@ class _Transitions:
 
     def matrix(self, columns: list[Floats]) -> Any:
         """Sparse rows phi(target) - phi(source), then those columns."""
-        from ebz.codec.models.solvers import sparse_rows  # noqa: PLC0415  scipy is slow to import
+        from ebz.codec.models.solvers import sparse_rows
 
         m, n = len(self.cost), self.n_states
         row = np.arange(m)
@@ -152,7 +152,7 @@ class _Transitions:
 
     def solve(self, objective: list[float], columns: list[Floats], right: Floats) -> Floats:
         """Least objective of the last variables under matrix x <= right, with phi(0) = 0."""
-        from ebz.codec.models.solvers import linear_program  # noqa: PLC0415  as above
+        from ebz.codec.models.solvers import linear_program
 
         bounds = [(0, 0)] + [(None, None)] * (self.n_states - 1 + len(columns))
         costs = np.r_[np.zeros(self.n_states), objective]

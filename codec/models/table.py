@@ -44,6 +44,12 @@ class Table:
     def __repr__(self) -> str:
         return f"Table({self.name!r}, {self.kind}, {len(self.frequencies)} rows)"
 
+    def same_as(self, other: Table) -> bool:
+        """Whether a coder would use both alike."""
+        return np.array_equal(self.frequencies, other.frequencies) and np.array_equal(
+            self.successors, other.successors
+        )
+
     def check(self) -> None:
         """Raise OptionError, naming the row and column, unless a coder can use the table."""
         if self.kind != "automaton":

@@ -1,0 +1,86 @@
+"""Mesh <-> bytes in memory."""
+
+import math
+import os
+from typing import Any
+
+from ebz.codec import pipeline
+from ebz.codec.encoded import EncodedMesh
+from ebz.codec.errors import OptionError
+from ebz.codec.lattice import MAX_BITS
+from ebz.codec.mesh import Mesh
+from ebz.codec.models.table import Table, table_names
+from ebz.codec.pipeline import Progress
+from ebz.formats import container
+from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+
+DEFAULT_MODEL = "loop-60"
+LEVELS = range(1, 10)
+
+BytesLike = bytes | bytearray | memoryview
+
+
+def compress(
+    mesh: Mesh,
+    *,
+    bits: int | None = None,
+    max_error: float | None = None,
+    level: int = 6,
+    model: str | os.PathLike[str] | Table | None = None,
+    embed_model: bool = False,
+    progress: Progress | None = None,
+) -> bytes:
+    """The .ebz bytes of a mesh; without `bits` and `max_error` nothing is lost.
+
+    bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).
+    max_error: in model units; no coordinate moves by more.  At most one of the two.
+    level: 1 (fast) to 9 (small).
+    model: name of a built-in table, path of a table file, or a table; embed_model stores it inline.
+    progress: called as progress(stage, done, total).
+
+    Order of vertices and faces may change.  compress(decompress(data)) gives the same bytes with
+    the same options.  Raises OptionError and MeshError.
+    """
+    _check_options(bits, max_error, level)
+    table = load_model(model)
+    encoded = pipeline.encode(mesh, table, bits=bits, max_error=max_error, progress=progress)
+    return container.write(encoded, embed_model=embed_model or _is_file(model))
+
+
+def decompress(
+    data: BytesLike,
+    *,
+    memory_limit: int = DEFAULT_MEMORY_LIMIT,
+    progress: Progress | None = None,
+) -> Mesh:
+    """The mesh of an .ebz file's bytes.
+
+    memory_limit: in bytes; what decoding would take is checked before anything is allocated.
+    Raises NotEbzError, VersionError, TruncatedError, CorruptError and MemoryLimitError.
+    """
+    return pipeline.decode(parse(data, memory_limit), progress=progress).mesh
+
+
+def parse(data: BytesLike, memory_limit: int) -> EncodedMesh:
+    """The structure of an .ebz file, its declared sizes checked."""
+    return container.read(memoryview(data).cast("B"), memory_limit=memory_limit)
+
+
+def load_model(model: str | os.PathLike[str] | Table | None) -> Table:
+    """The table that a `model` option means; raises OptionError where there is none."""
+    return model if isinstance(model, Table) else Table.load(model or DEFAULT_MODEL)
+
+
+def _is_file(model: Any) -> bool:
+    return model is not None and not isinstance(model, Table) and str(model) not in table_names()
+
+
+def _check_options(bits: int | None, max_error: float | None, level: int) -> None:
+    if bits is not None and max_error is not None:
+        raise OptionError("bits and max_error exclude each other")
+    if bits is not None and not 1 <= bits <= MAX_BITS:
+        raise OptionError(f"bits is {bits}, not 1 to {MAX_BITS}")
+    if max_error is not None and not (math.isfinite(max_error) and max_error >= 0):
+        raise OptionError(f"max_error is {max_error}, not a finite number of at least 0")
+    if level not in LEVELS:
+        raise OptionError(f"level is {level}, not {LEVELS[0]} to {LEVELS[-1]}")

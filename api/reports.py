@@ -1,0 +1,40 @@
+"""What a file holds and whether it is whole."""
+
+from ebz.codec import pipeline, statistics
+from ebz.codec.compare import Verification, compare
+from ebz.codec.mesh import Mesh
+from ebz.codec.models.certify import certify
+from ebz.codec.statistics import Stats
+from ebz.coding import BytesLike, compress, parse
+from ebz.formats import container
+from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+
+
+def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -> Stats:
+    """Counts, sizes and reference values of an .ebz file, or of what `compress` makes of a mesh.
+
+    Raises what decompress raises.
+    """
+    content = compress(data) if isinstance(data, Mesh) else data
+    view = memoryview(content).cast("B")
+    encoded = parse(view, memory_limit)
+    decoded = pipeline.decode(encoded)
+    guarantee = certify(encoded.table).bits_per_vertex
+    return statistics.describe(
+        encoded, decoded.word, decoded.surface, container.sizes(view), guarantee
+    )
+
+
+def verify(
+    data: BytesLike, against: Mesh | None = None, *, memory_limit: int = DEFAULT_MEMORY_LIMIT
+) -> Verification:
+    """Check an .ebz file by decoding all of it, and compare it with the original if that is given.
+
+    Raises what decompress raises, and EbzError where vertices cannot be told apart.
+    """
+    encoded = parse(data, memory_limit)
+    mesh = pipeline.decode(encoded).mesh
+    checked = ["checksums", "every stream", "digest"]
+    if against is None:
+        return Verification(True, checked, len(mesh.vertices), len(mesh.faces))
+    return compare(mesh, against, encoded.lattice, checked)

@@ -1,0 +1,1 @@
+"""Structures to structures: connectivity, models, lattices, streams; no files."""

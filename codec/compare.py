@@ -1,0 +1,191 @@
+"""Whether a decoded mesh is the original, up to the order of vertices and faces.
+
+The correspondence comes from running the encoder's traversal on the original; where that leads to
+other faces, because the original's own order differs in a way that matters, vertices are matched by
+their exact data, refined by the data of the faces around them.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import connectivity, matching
+from ebz.codec.errors import EbzError
+from ebz.codec.lattice import BoxLattice, Lattice, StepLattice
+from ebz.codec.mesh import Mesh
+
+Order = npt.NDArray[Any]
+
+
+class UndecidedError(EbzError):
+    """Neither the traversal nor the data tell which vertex is which."""
+
+
+@dataclass(frozen=True)
+class Verification:
+    """What was checked and how it came out; as_dict() is what --json prints.
+
+    equal: nothing differs beyond what the file's precision allows.  first_difference: its name,
+    None where there is none.  Errors are distances in model units, per coordinate (largest) and per
+    vertex (root mean square); None where nothing was compared.
+    """
+
+    equal: bool
+    checked: list[str]
+    vertices: int
+    faces: int
+    first_difference: str | None = None
+    matched_by: str | None = None
+    largest_error: float | None = None
+    rms_error: float | None = None
+    allowed_error: float | None = None
+
+    def as_dict(self) -> dict[str, Any]:
+        """The fields by name."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class _Correspondence:
+    """For each vertex and face of the decoded mesh, that of the original."""
+
+    vertices: Order
+    faces: Order
+    how: str
+
+
+def compare(decoded: Mesh, original: Mesh, lattice: Lattice, checked: list[str]) -> Verification:
+    """The verdict on a decoded mesh; raises UndecidedError where there is none.
+
+    lattice: the precision at which the mesh was stored.
+    """
+    found: dict[str, Any] = {"vertices": len(decoded.vertices), "faces": len(decoded.faces)}
+    difference = _different_kind(decoded, original)
+    if difference:
+        return Verification(False, checked, first_difference=difference, **found)
+    match = _by_traversal(decoded, original) or _by_data(decoded, original, lattice)
+    if isinstance(match, str):
+        return Verification(False, checked, first_difference=match, **found)
+    checked = [*checked, "faces and their orientation", "coordinates"]
+    source, got = original.vertices[match.vertices], decoded.vertices
+    found |= {"matched_by": match.how, **_errors(got, source)}
+    allowed = found["allowed_error"] = allowed_error(lattice, original)
+    difference = _moved(got, source, allowed) or _other_attributes(
+        decoded, original, match, checked
+    )
+    return Verification(difference is None, checked, first_difference=difference, **found)
+
+
+def allowed_error(lattice: Lattice, original: Mesh) -> float:
+    """How far a coordinate may move, in model units."""
+    if isinstance(lattice, StepLattice):
+        return lattice.max_error
+    if isinstance(lattice, BoxLattice):
+        # Half a step, and half the spacing of the floats at the largest coordinate.
+        largest = np.abs(original.vertices).max(initial=0)
+        return lattice.step / 2 * (1 + 1e-9) + float(np.spacing(largest)) / 2
+    return 0.0
+
+
+def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
+    for what, got, wanted in (
+        ("number of vertices", len(decoded.vertices), len(original.vertices)),
+        ("number of faces", len(decoded.faces), len(original.faces)),
+        ("type of coordinates", decoded.vertices.dtype.name, original.vertices.dtype.name),
+    ):
+        if got != wanted:
+            return f"{what}: {got}, not {wanted}"
+    return None
+
+
+def _by_traversal(decoded: Mesh, original: Mesh) -> _Correspondence | None:
+    _, order = connectivity.traverse(original.faces, len(original.vertices))
+    number = np.empty(len(order.vertices), np.int64)
+    number[order.vertices] = np.arange(len(order.vertices))
+    faces = number[original.faces[order.faces]]
+    if not np.array_equal(matching.rotated(faces), matching.rotated(decoded.faces)):
+        return None
+    return _Correspondence(order.vertices, order.faces, "traversal")
+
+
+def _by_data(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence | str:
+    """The correspondence, or the name of the difference that rules one out."""
+    matched = matching.match(
+        matching.Labelled(decoded.faces, _keys(decoded, decoded.vertices)),
+        matching.Labelled(original.faces, _keys(original, _as_stored(original.vertices, lattice))),
+    )
+    if isinstance(matched, str):
+        return matched
+    if matched is None:
+        raise UndecidedError(
+            "cannot tell which vertex is which: compare with the mesh as compressed"
+        )
+    return _Correspondence(*matched, "data")
+
+
+def _as_stored(vertices: npt.NDArray[Any], lattice: Lattice) -> npt.NDArray[Any]:
+    if not isinstance(lattice, BoxLattice | StepLattice):
+        return vertices
+    return lattice.coordinates(lattice.integers(vertices), vertices.dtype)
+
+
+def _keys(mesh: Mesh, vertices: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
+    """The bytes of each vertex: coordinates and attributes."""
+    columns = [vertices, *(values for _, values in sorted(mesh.vertex_attributes.items()))]
+    return np.column_stack([matching.as_bytes(column) for column in columns])
+
+
+def _errors(got: npt.NDArray[Any], source: npt.NDArray[Any]) -> dict[str, float]:
+    with np.errstate(invalid="ignore", over="ignore"):
+        error = np.abs(got.astype(np.float64) - source.astype(np.float64))
+    error[_same_bits(got, source)] = 0.0
+    largest = float(error.max(initial=0.0))
+    rms = float(np.sqrt((error**2).sum() / len(error))) if len(error) else 0.0
+    return {"largest_error": largest, "rms_error": rms}
+
+
+def _moved(got: npt.NDArray[Any], source: npt.NDArray[Any], allowed: float) -> str | None:
+    same = _same_bits(got, source)
+    if allowed:
+        same |= np.abs(got.astype(np.float64) - source.astype(np.float64)) <= allowed
+    if same.all():
+        return None
+    row, axis = np.argwhere(~same)[0]
+    values = f"{got[row, axis]!r}, not {source[row, axis]!r}"
+    return f"vertex {row} of the decoded mesh: {'xyz'[axis]} is {values}"
+
+
+def _same_bits(got: npt.NDArray[Any], source: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
+    bits = f"u{got.dtype.itemsize}"
+    return np.asarray(
+        np.ascontiguousarray(got).view(bits) == np.ascontiguousarray(source).view(bits)
+    )
+
+
+def _other_attributes(
+    decoded: Mesh, original: Mesh, match: _Correspondence, checked: list[str]
+) -> str | None:
+    for owner, got, wanted, order in (
+        ("vertex", decoded.vertex_attributes, original.vertex_attributes, match.vertices),
+        ("face", decoded.face_attributes, original.face_attributes, match.faces),
+    ):
+        if got or wanted:
+            checked.append(f"{owner} attributes")
+        for name in sorted(got.keys() | wanted.keys()):
+            if name not in got or name not in wanted:
+                return (
+                    f"{owner} attribute {name!r}: {'missing' if name in wanted else 'not in MESH'}"
+                )
+            if not _same_attribute(got[name], wanted[name][order]):
+                return f"{owner} attribute {name!r}: values differ"
+    return None
+
+
+def _same_attribute(got: npt.NDArray[Any], wanted: npt.NDArray[Any]) -> bool:
+    return (
+        got.dtype == wanted.dtype
+        and got.shape == wanted.shape
+        and np.array_equal(matching.as_bytes(got), matching.as_bytes(wanted))
+    )

@@ -1,0 +1,1 @@
+"""Probability models of reverse CLRSE words: theory, tables and certificates."""

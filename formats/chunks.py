@@ -1,0 +1,88 @@
+"""Chunks: a type, a length, a payload and a checksum over all three."""
+
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from io import BytesIO
+
+from ebz.codec.errors import CorruptError, NotEbzError, TruncatedError, VersionError
+from ebz.formats import layout
+
+# A length of 64 bits takes ten bytes.
+MAX_HEAD = 11
+CRC_SIZE = 4
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """A chunk of a file; `offset` is that of its type."""
+
+    type: bytes
+    payload: bytes
+    offset: int
+    size: int  # with head and checksum
+
+    @property
+    def where(self) -> str:
+        return f"chunk {self.type.decode('latin-1')!r} at offset {self.offset}"
+
+
+def write(kind: bytes, payload: bytes) -> bytes:
+    """The bytes of one chunk."""
+    body = layout.build(layout.ChunkHead, {"type": kind, "length": len(payload)}) + payload
+    return body + layout.build(layout.CRC32, zlib.crc32(body))
+
+
+def start() -> bytes:
+    """What comes before the first chunk."""
+    return layout.MAGIC + bytes([layout.VERSION])
+
+
+def read(data: memoryview) -> Iterator[Chunk]:
+    """The chunks up to the end chunk, checked one by one.
+
+    Raises NotEbzError, VersionError, TruncatedError or CorruptError.
+    """
+    offset = _check_start(data)
+    while True:
+        chunk = _read_one(data, offset)
+        offset += chunk.size
+        yield chunk
+        if chunk.type == layout.END:
+            break
+    if offset != len(data):
+        raise CorruptError(f"{len(data) - offset} bytes after the end chunk, at offset {offset}")
+
+
+def _check_start(data: memoryview) -> int:
+    if len(data) and layout.MAGIC.startswith(bytes(data[: len(layout.MAGIC) + 1])):
+        raise TruncatedError(f"the file ends at byte {len(data)}, within its first bytes")
+    if data[: len(layout.MAGIC)] != layout.MAGIC:
+        raise NotEbzError("not an .ebz file" if len(data) else "not an .ebz file: it is empty")
+    version = data[len(layout.MAGIC)]
+    if version != layout.VERSION:
+        raise VersionError(
+            f"format version {version}; this ebz reads version {layout.VERSION} only"
+        )
+    return len(layout.MAGIC) + 1
+
+
+def _read_one(data: memoryview, offset: int) -> Chunk:
+    stream = BytesIO(data[offset : offset + MAX_HEAD])
+    try:
+        head = layout.ChunkHead.parse_stream(stream)
+    except layout.Malformed:
+        if offset + MAX_HEAD <= len(data):
+            raise CorruptError(f"chunk at offset {offset}: its length is malformed") from None
+        raise TruncatedError(f"the file ends at byte {len(data)}, within a chunk head") from None
+    start, end = offset + stream.tell(), offset + stream.tell() + head.length
+    if end + CRC_SIZE > len(data):
+        missing = end + CRC_SIZE - len(data)
+        name = head.type.decode("latin-1")
+        raise TruncatedError(
+            f"chunk {name!r} at offset {offset}: the file ends {missing} bytes too early"
+        )
+    chunk = Chunk(head.type, bytes(data[start:end]), offset, end + CRC_SIZE - offset)
+    if zlib.crc32(data[offset:end]) != int.from_bytes(data[end : end + CRC_SIZE], "little"):
+        raise CorruptError(f"{chunk.where}: checksum mismatch")
+    return chunk

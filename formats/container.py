@@ -1,0 +1,257 @@
+""".ebz bytes <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
+
+from typing import Any
+
+import numpy as np
+
+from ebz.codec.connectivity import WordCounts
+from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
+from ebz.codec.errors import CorruptError, OptionError, VersionError
+from ebz.codec.lattice import (
+    MAX_BITS,
+    MAX_DIGITS,
+    BoxLattice,
+    DecimalLattice,
+    FloatLattice,
+    Lattice,
+    StepLattice,
+)
+from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
+from ebz.codec.models.table import Table
+from ebz.formats import chunks, layout
+from ebz.formats.chunks import Chunk
+from ebz.formats.limits import check_declared_sizes
+
+SINGLE = {
+    layout.HEADER, layout.MODEL, layout.WORD, layout.SPECIALS, layout.GLUING, layout.POSITIONS,
+    layout.EXCEPTIONS, layout.ROTATIONS, layout.METADATA, layout.END,
+}  # fmt: skip
+REPEATED = {layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE}
+MAX_COUNT = 2**63
+
+
+def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
+    """The file: chunks that hold nothing are left out, but for the header and the end."""
+    model = _model_id(encoded.table)
+    inline = embed_model or model == layout.INLINE_MODEL
+    streams = encoded.streams
+    parts = [
+        chunks.start(),
+        chunks.write(layout.HEADER, _header(encoded, layout.INLINE_MODEL if inline else model)),
+    ]
+    optional = [
+        (layout.MODEL, _table(encoded.table) if inline else b""),
+        (layout.WORD, streams.word if encoded.counts.n_symbols else b""),
+        (layout.SPECIALS, streams.special_integers),
+        (layout.GLUING, streams.gluing),
+        (layout.POSITIONS, streams.positions if encoded.n_vertices else b""),
+        (layout.EXCEPTIONS, _exceptions(streams) if encoded.n_exceptions else b""),
+    ]
+    parts += [chunks.write(kind, payload) for kind, payload in optional if payload]
+    if streams.rotations is not None:
+        parts.append(chunks.write(layout.ROTATIONS, streams.rotations))
+    for array in encoded.vertex_attributes:
+        parts.append(chunks.write(layout.VERTEX_ATTRIBUTE, _attribute(array)))
+    for array in encoded.face_attributes:
+        parts.append(chunks.write(layout.FACE_ATTRIBUTE, _attribute(array)))
+    if encoded.metadata:
+        parts.append(chunks.write(layout.METADATA, encoded.metadata))
+    parts.append(chunks.write(layout.END, encoded.digest))
+    return b"".join(parts)
+
+
+def sizes(data: memoryview) -> dict[str, int]:
+    """Bytes of a file by what they hold, framing included, in the order of the file."""
+    by_name = {"start": len(chunks.start())}
+    for chunk in chunks.read(data):
+        name = layout.NAMES.get(chunk.type, "unknown")
+        by_name[name] = by_name.get(name, 0) + chunk.size
+    return by_name
+
+
+def read(data: memoryview, *, memory_limit: int) -> EncodedMesh:
+    """The encoded mesh; counts are checked against the bytes there are and the memory limit.
+
+    Raises NotEbzError, VersionError, TruncatedError, CorruptError or MemoryLimitError.
+    """
+    found: dict[bytes, Chunk] = {}
+    arrays: dict[bytes, list[EncodedArray]] = {kind: [] for kind in REPEATED}
+    for chunk in chunks.read(data):
+        if chunk.type in REPEATED:
+            arrays[chunk.type].append(_parse_attribute(chunk))
+        elif chunk.type in SINGLE:
+            if chunk.type in found:
+                raise CorruptError(f"{chunk.where}: there is one already")
+            found[chunk.type] = chunk
+        elif not chunk.type.islower():
+            raise VersionError(f"{chunk.where}: unknown, and required to decode the file")
+        if layout.HEADER not in found:
+            raise CorruptError(f"{chunk.where}: the header does not come first")
+    encoded = _parse(found, arrays)
+    check_declared_sizes(encoded, len(data), memory_limit)
+    return encoded
+
+
+def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -> EncodedMesh:
+    header = layout.parse(layout.Header, found[layout.HEADER].payload, found[layout.HEADER].where)
+    _check_header(header)
+
+    def payload(kind: bytes) -> bytes:
+        return found[kind].payload if kind in found else b""
+
+    exceptions = layout.parse(layout.Exceptions, payload(layout.EXCEPTIONS) or b"\0", "exceptions")
+    return EncodedMesh(
+        dtype=np.dtype(f"f{header.itemsize}"),
+        counts=WordCounts(
+            header.n_symbols, header.n_closed, header.n_single, header.n_specials, header.n_copies
+        ),
+        n_vertices=header.n_vertices,
+        n_exceptions=header.n_exceptions,
+        lattice=_parse_lattice(header),
+        table=_parse_model(header.model, found.get(layout.MODEL)),
+        streams=Streams(
+            word=payload(layout.WORD),
+            special_integers=payload(layout.SPECIALS),
+            gluing=payload(layout.GLUING),
+            positions=payload(layout.POSITIONS),
+            exception_rows=exceptions.rows,
+            exception_values=exceptions.exact,
+            rotations=found[layout.ROTATIONS].payload if layout.ROTATIONS in found else None,
+        ),
+        vertex_attributes=arrays[layout.VERTEX_ATTRIBUTE],
+        face_attributes=arrays[layout.FACE_ATTRIBUTE],
+        metadata=payload(layout.METADATA),
+        digest=payload(layout.END),
+    )
+
+
+def _header(encoded: EncodedMesh, model: int) -> bytes:
+    counts = encoded.counts
+    return layout.build(
+        layout.Header,
+        {
+            "itemsize": encoded.dtype.itemsize,
+            "n_vertices": encoded.n_vertices,
+            "n_symbols": counts.n_symbols,
+            "n_closed": counts.n_closed,
+            "n_single": counts.n_single,
+            "n_specials": counts.n_specials,
+            "n_copies": counts.n_copies,
+            "n_exceptions": encoded.n_exceptions,
+            "model": model,
+            "lattice": layout.LATTICE_KINDS.index(encoded.lattice.kind),
+            "parameters": vars(encoded.lattice),
+        },
+    )
+
+
+def _check_header(header: Any) -> None:
+    if header.itemsize not in layout.DTYPE_SIZES:
+        raise CorruptError(f"header: coordinates of {header.itemsize} bytes")
+    if header.lattice >= len(layout.LATTICE_KINDS):
+        raise VersionError(f"header: unknown lattice {header.lattice}")
+    for name, count in header.items():
+        if name.startswith("n_") and count >= MAX_COUNT:
+            raise CorruptError(f"header: {name} is {count}, past the limit of 2^63")
+    if header.n_vertices >= MAX_VERTICES:
+        raise CorruptError(f"header: {header.n_vertices} vertices, past the limit of 2^31 - 1")
+    if header.n_symbols + header.n_closed > MAX_FACES:
+        raise CorruptError(f"header: more faces than the limit of {MAX_FACES}")
+    if header.n_closed + header.n_single > header.n_symbols:
+        raise CorruptError("header: more components than symbols")
+
+
+def _parse_lattice(header: Any) -> Lattice:
+    kind, parameters = layout.LATTICE_KINDS[header.lattice], header.parameters
+    if kind == "decimal":
+        if parameters.digits > MAX_DIGITS[header.itemsize]:
+            raise CorruptError(f"header: a lattice of {parameters.digits} decimals")
+        return DecimalLattice(parameters.digits)
+    if kind == "box":
+        origin = tuple(parameters.origin)
+        if not 1 <= parameters.bits <= MAX_BITS:
+            raise CorruptError(f"header: a lattice of {parameters.bits} bits")
+        if not np.isfinite([*origin, parameters.side]).all():
+            raise CorruptError("header: the box of the lattice is not finite")
+        return BoxLattice(parameters.bits, origin, parameters.side)
+    if kind == "step":
+        if not np.isfinite(parameters.max_error) or parameters.max_error <= 0:
+            raise CorruptError(f"header: a maximal error of {parameters.max_error}")
+        return StepLattice(parameters.max_error)
+    return FloatLattice()
+
+
+def _model_id(table: Table) -> int:
+    """The number of a built-in table, 0 where the table is not one of them."""
+    for number, name in layout.MODELS.items():
+        if table.name == name and table.same_as(Table.load(name)):
+            return number
+    return layout.INLINE_MODEL
+
+
+def _parse_model(number: int, chunk: Chunk | None) -> Table:
+    if number != layout.INLINE_MODEL:
+        if number not in layout.MODELS:
+            raise VersionError(f"header: unknown model {number}")
+        return Table.load(layout.MODELS[number])
+    if chunk is None:
+        raise CorruptError("header: the file's own model is missing")
+    return _parse_table(chunk)
+
+
+def _table(table: Table) -> bytes:
+    return layout.build(
+        layout.Table,
+        {
+            "name": table.name.encode("utf-8", "surrogatepass"),
+            "n_states": len(table.frequencies),
+            "frequencies": table.frequencies[:, 1:].tolist(),
+            "successors": table.successors.tolist(),
+        },
+    )
+
+
+def _parse_table(chunk: Chunk) -> Table:
+    parsed = layout.parse(layout.Table, chunk.payload, chunk.where)
+    others = np.array(parsed.frequencies, np.uint32).reshape(-1, 4)
+    first = np.uint32(65536) - others.sum(axis=1, dtype=np.uint32)
+    table = Table(
+        name=parsed.name.decode("utf-8", "surrogatepass"),
+        frequencies=np.column_stack([first, others]),
+        successors=np.array(parsed.successors, np.uint16).reshape(-1, 5),
+    )
+    try:
+        table.check()
+    except OptionError as error:
+        raise CorruptError(f"{chunk.where}: {error.message}") from None
+    return table
+
+
+def _exceptions(streams: Streams) -> bytes:
+    values = {"rows": streams.exception_rows, "exact": streams.exception_values}
+    return layout.build(layout.Exceptions, values)
+
+
+def _attribute(array: EncodedArray) -> bytes:
+    return layout.build(
+        layout.Attribute,
+        {
+            "name": array.name.encode("utf-8", "surrogatepass"),
+            "kind": array.dtype.kind.encode(),
+            "itemsize": array.dtype.itemsize,
+            "shape": array.shape,
+            "data": array.data,
+        },
+    )
+
+
+def _parse_attribute(chunk: Chunk) -> EncodedArray:
+    parsed = layout.parse(layout.Attribute, chunk.payload, chunk.where)
+    try:
+        dtype = np.dtype(f"{parsed.kind.decode('ascii')}{parsed.itemsize}")
+        name = parsed.name.decode("utf-8", "surrogatepass")
+    except (TypeError, ValueError) as error:
+        raise CorruptError(f"{chunk.where}: {error}") from None
+    if dtype.kind not in "biuf" or len(parsed.shape) > 31:
+        raise CorruptError(f"{chunk.where}: not an array of numbers")
+    return EncodedArray(name, dtype, tuple(parsed.shape), parsed.data)

@@ -1,0 +1,120 @@
+"""The bytes of an .ebz file, declared with construct; FORMAT.md is the specification in prose."""
+
+from typing import Any
+
+from construct import (
+    Array,
+    Byte,
+    Bytes,
+    ConstructError,
+    Float32l,
+    Float64l,
+    GreedyBytes,
+    IfThenElse,
+    Int8ul,
+    Int16ul,
+    Int32ul,
+    Pass,
+    Prefixed,
+    PrefixedArray,
+    Struct,
+    Switch,
+    VarInt,
+    this,
+)
+
+from ebz.codec.errors import CorruptError
+
+Malformed = ConstructError
+
+MAGIC = b"\x89EBZ\r\n\x1a\n"
+VERSION = 1
+
+# Chunk types: upper case is required to decode, a reader skips what it does not know in lower case.
+HEADER, MODEL, WORD, SPECIALS, GLUING = b"H", b"M", b"W", b"S", b"G"
+POSITIONS, EXCEPTIONS, ROTATIONS = b"P", b"X", b"R"
+VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, METADATA, END = b"V", b"F", b"D", b"Z"
+
+NAMES = {
+    HEADER: "header",
+    MODEL: "model",
+    WORD: "word",
+    SPECIALS: "special S",
+    GLUING: "gluing",
+    POSITIONS: "positions",
+    EXCEPTIONS: "exceptions",
+    ROTATIONS: "rotations",
+    VERTEX_ATTRIBUTE: "vertex attributes",
+    FACE_ATTRIBUTE: "face attributes",
+    METADATA: "metadata",
+    END: "digest",
+}
+
+ChunkHead = Struct("type" / Bytes(1), "length" / VarInt)
+CRC32 = Int32ul
+
+LATTICE_KINDS = ("float", "decimal", "box", "step")
+DTYPE_SIZES = (4, 8)
+
+Float = IfThenElse(this._root.itemsize == 4, Float32l, Float64l)
+
+Header = Struct(
+    "itemsize" / Byte,
+    "n_vertices" / VarInt,
+    "n_symbols" / VarInt,
+    "n_closed" / VarInt,
+    "n_single" / VarInt,
+    "n_specials" / VarInt,
+    "n_copies" / VarInt,
+    "n_exceptions" / VarInt,
+    "model" / Byte,
+    "lattice" / Byte,
+    "parameters"
+    / Switch(
+        this.lattice,
+        {
+            LATTICE_KINDS.index("float"): Pass,
+            LATTICE_KINDS.index("decimal"): Struct("digits" / Byte),
+            LATTICE_KINDS.index("box"): Struct(
+                "bits" / Byte, "origin" / Array(3, Float), "side" / Float64l
+            ),
+            LATTICE_KINDS.index("step"): Struct("max_error" / Float64l),
+        },
+    ),
+)
+
+# Model 0 is the table of the file's model chunk; the others are built in and never change.
+INLINE_MODEL = 0
+MODELS = {1: "loop-60"}
+
+Table = Struct(
+    "name" / Prefixed(VarInt, GreedyBytes),
+    "n_states" / VarInt,
+    "frequencies" / Array(this.n_states, Array(4, Int16ul)),  # of L, R, S, E; C has what is left
+    "successors"
+    / Array(this.n_states, Array(5, IfThenElse(this._root.n_states <= 256, Int8ul, Int16ul))),
+)
+
+Exceptions = Struct("rows" / Prefixed(VarInt, GreedyBytes), "exact" / GreedyBytes)
+
+Attribute = Struct(
+    "name" / Prefixed(VarInt, GreedyBytes),
+    "kind" / Bytes(1),  # b, i, u, f as in numpy
+    "itemsize" / Byte,
+    "shape" / PrefixedArray(Byte, VarInt),  # of one entry
+    "data" / GreedyBytes,
+)
+
+
+def build(declaration: Any, values: Any) -> bytes:
+    """The bytes of a declared structure."""
+    return bytes(declaration.build(values))
+
+
+def parse(declaration: Any, payload: bytes, what: str) -> Any:
+    """The values of a declared structure; raises CorruptError where the payload is too short."""
+    try:
+        return declaration.parse(payload)
+    except ConstructError as error:
+        reason = str(error).splitlines()[-1]
+        raise CorruptError(f"{what}: {reason}") from None

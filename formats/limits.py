@@ -1,0 +1,51 @@
+"""What a file may declare: no more than its bytes can hold, no more than memory allows."""
+
+import math
+
+from ebz.codec.encoded import EncodedArray, EncodedMesh
+from ebz.codec.errors import CorruptError, MemoryLimitError
+from ebz.codec.models.table import TOTAL
+
+# The cheapest adaptive bit: AdaptiveBit in codec/kernels/adaptive_bit.hpp.
+CHEAPEST_BIT = math.log2(65536 / (65536 - 32))
+# What a range coder's stream of b bytes holds is at most 8 b bits and these.
+SLACK_BITS = 8
+DEFAULT_MEMORY_LIMIT = 4 << 30
+# Memory that decoding takes at its peak, measured and rounded up.
+BYTES_PER_FACE = 160
+BYTES_PER_VERTEX = 160
+
+
+def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) -> None:
+    """Raise CorruptError where a count exceeds its stream, MemoryLimitError past the limit."""
+    counts, streams = encoded.counts, encoded.streams
+    bits_per_symbol = math.log2(TOTAL / int(encoded.table.frequencies.max()))
+    _check("symbols", counts.n_symbols, bits_per_symbol, streams.word)
+    _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
+    _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
+    _check("vertices", encoded.n_vertices, 3 * CHEAPEST_BIT, streams.positions)
+    _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
+    if streams.rotations is not None:
+        _check("rotations", counts.n_faces, CHEAPEST_BIT, streams.rotations)
+    size = _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
+    size += _arrays_size(encoded.face_attributes, counts.n_faces)
+    size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices + 2 * n_bytes
+    if size > memory_limit:
+        raise MemoryLimitError(
+            f"decoding takes up to {size:,} bytes of memory, past the limit of {memory_limit:,}"
+        )
+
+
+def _check(what: str, count: int, bits_each: float, stream: bytes) -> None:
+    available = 8 * len(stream) + SLACK_BITS if stream else 0
+    if count * bits_each > available * (1 + 1e-9):
+        raise CorruptError(f"header: {count} {what} do not fit in {len(stream)} bytes")
+
+
+def _arrays_size(arrays: list[EncodedArray], n: int) -> int:
+    size = 0
+    for array in arrays:
+        entry = array.entry_size
+        _check(f"bytes of attribute {array.name!r}", n * entry, 8 * CHEAPEST_BIT, array.data)
+        size += 3 * n * entry
+    return size
