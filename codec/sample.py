@@ -153,8 +153,8 @@ def torus(n_triangles: int, noise: float = 0.0, seed: int = 0) -> Mesh:
     cos_v, sin_v = circle(around / n_around)
     radius = 1 + 0.4 * cos_v
     vertices = np.stack([radius * cos_u, radius * sin_u, 0.4 * sin_v], axis=1)
-    rows, columns = np.arange(n_along + 1) % n_along, np.arange(n_around + 1) % n_around
-    return _noisy(vertices, grid_faces(rows[:, None] * n_around + columns), noise, seed)
+    rows, columns = np.arange(n_around + 1) % n_around, np.arange(n_along + 1) % n_along
+    return _noisy(vertices, grid_faces(columns * n_around + rows[:, None]), noise, seed)
 
 
 def grid(n_triangles: int, noise: float = 0.0, seed: int = 0) -> Mesh:

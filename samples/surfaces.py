@@ -82,7 +82,7 @@ def trefoil(n_rows: int, n_columns: int, seed: int) -> Surface:
     binormal = np.cross(tangent / np.sqrt(x * x + y * y + z * z)[:, None], normal)
     radius = 0.42 + 0.03 * circle(15 * t)[0] * circle(3 * s)[0] + 0.02 * circle(7 * t + s)[1]
     vertices = centre + (radius * cos)[:, None] * normal + (radius * sin)[:, None] * binormal
-    return vertices, delaunay_flips(vertices, faces)
+    return vertices, delaunay_flips(vertices, faces[:, ::-1])
 
 
 def voxels(filled: npt.ArrayLike) -> Surface:
