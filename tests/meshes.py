@@ -20,7 +20,8 @@ from tests.surgery import Faces, Rng, n_used
 # Quiet and signalling NaNs with payloads, infinities, zeros, denormals, the largest numbers.
 SPECIAL_32 = [0x7FC00000, 0x7FC00001, 0xFFFFFFFF, 0x7F800001, 0x7F800000, 0xFF800000]
 SPECIAL_32 += [0x80000000, 0, 1, 0x80000001, 0x007FFFFF, 0x7F7FFFFF, 0xFF7FFFFF]
-SPECIAL_64 = [word << 32 for word in SPECIAL_32] + [1, 0x7FF0000000000001, 0x7FEFFFFFFFFFFFFF]
+SPECIAL_64 = [0x7FF8 << 48, (0x7FF8 << 48) + 1, 2**64 - 1, (0x7FF0 << 48) + 1, 0x7FF0 << 48]
+SPECIAL_64 += [0xFFF0 << 48, 1 << 63, 0, 1, (1 << 63) + 1, 2**52 - 1, (0x7FF0 << 48) - 1]
 
 DAMAGE: list[Callable[[Faces, int, Rng], Faces]] = [
     surgery.delete_faces,
@@ -106,15 +107,12 @@ def coordinates(
     values = rng.normal(size=(n, 3)) if kind == "smooth" else rng.integers(-999, 999, (n, 3)) / 1.0
     vertices = (values / 1000 if kind == "decimal" else values).astype(dtype)
     if not finite and draw(st.booleans()):
-        patterns = (
-            np.array(SPECIAL_32, np.uint32)
-            if dtype.itemsize == 4
-            else np.array(SPECIAL_64, np.uint64)
-        )
+        words = (SPECIAL_32, np.uint32) if dtype == np.float32 else (SPECIAL_64, np.uint64)
+        patterns = np.array(*words).view(dtype)
         odd = rng.random((n, 3)) < draw(st.sampled_from([0.05, 0.5]))
-        vertices[odd] = rng.choice(patterns.view(dtype), np.count_nonzero(odd))
+        vertices[odd] = rng.choice(patterns, np.count_nonzero(odd))
     if distinct:
-        vertices[:, 0] = rng.permutation(n) / (1000 if kind == "decimal" else 1)
+        vertices[:, rng.integers(3)] = rng.permutation(n) / (1000 if kind == "decimal" else 1)
     return vertices
 
 
