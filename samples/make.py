@@ -65,7 +65,7 @@ def smooth() -> dict[str, bytes]:
         "terrain.ply": ply(terrain.vertices, terrain.faces),
         "random_triangulation.ply": ply(triangulation.vertices, triangulation.faces),
         "components.ply": _ply(_union([(points, sample.icosahedron()[1]) for points in many])),
-        "trefoil.ply": _ply(surfaces.trefoil(36, 220, seed=7)),
+        "trefoil.ply": _ply(surfaces.trefoil(36, 218, seed=7)),
     }
 
 

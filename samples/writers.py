@@ -43,7 +43,7 @@ def ply(
 
 
 def obj(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> bytes:
-    lines = [f"v {x} {y} {z}" for x, y, z in _points(vertices)]
+    lines = [f"v {_numbers(point)}" for point in _points(vertices)]
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in np.asarray(faces)]
     return "".join(f"{line}\n" for line in lines).encode()
 
@@ -51,7 +51,7 @@ def obj(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> bytes:
 def off(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> bytes:
     points, corners = _points(vertices), np.asarray(faces)
     lines = ["OFF", f"{len(points)} {len(corners)} 0"]
-    lines += [f"{x} {y} {z}" for x, y, z in points]
+    lines += [_numbers(point) for point in points]
     lines += [f"3 {a} {b} {c}" for a, b, c in corners]
     return "".join(f"{line}\n" for line in lines).encode()
 
@@ -101,6 +101,7 @@ def _rows(table: Array) -> list[tuple[Any, ...]]:
 
 
 def _numbers(values: Array) -> str:
+    """The shortest decimals in their own precision, which format() does not give."""
     return " ".join(map(str, values))
 
 
