@@ -5,7 +5,6 @@ PCG64's raw stream, which numpy promises not to change, and coordinates need onl
 """
 
 import math
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -147,31 +146,46 @@ def torus(n_triangles: int, noise: float = 0.0, seed: int = 0) -> Mesh:
     """A torus of about `n_triangles` (4 k^2, k >= 3) with radii 1 and 0.4."""
     _check_size(n_triangles)
     n_around = max(3, round(math.sqrt(n_triangles / 4)))
-    n_along = 2 * n_around
-    along, around = np.divmod(np.arange(n_along * n_around), n_around)
-    cos_u, sin_u = circle(along / n_along)
-    cos_v, sin_v = circle(around / n_around)
+    row, column, faces = glued_grid(n_around, 2 * n_around, "join", "join")
+    cos_u, sin_u = circle(column / (2 * n_around))
+    cos_v, sin_v = circle(row / n_around)
     radius = 1 + 0.4 * cos_v
     vertices = np.stack([radius * cos_u, radius * sin_u, 0.4 * sin_v], axis=1)
-    rows, columns = np.arange(n_around + 1) % n_around, np.arange(n_along + 1) % n_along
-    return _noisy(vertices, grid_faces(columns * n_around + rows[:, None]), noise, seed)
+    return _noisy(vertices, faces, noise, seed)
 
 
 def grid(n_triangles: int, noise: float = 0.0, seed: int = 0) -> Mesh:
     """A hilly terrain of about `n_triangles` (2 k^2) over the unit square."""
     _check_size(n_triangles)
     n_cells = max(1, round(math.sqrt(n_triangles / 2)))
-    index = np.arange((n_cells + 1) ** 2).reshape(n_cells + 1, -1)
-    y, x = (axis.ravel() / n_cells for axis in np.divmod(index, n_cells + 1))
+    row, column, faces = glued_grid(n_cells, n_cells, "open", "open")
+    x, y = column / n_cells, row / n_cells
     height = 0.08 * circle(1.3 * x + 0.4 * y)[1]
     height += 0.05 * circle(2.1 * y - 0.9 * x)[0] + 0.02 * circle(4.7 * x)[1] * circle(5.3 * y)[1]
-    return _noisy(np.stack([x, y, height], axis=1), grid_faces(index), noise, seed)
+    return _noisy(np.stack([x, y, height], axis=1), faces, noise, seed)
 
 
-def grid_faces(index: npt.NDArray[Any]) -> Indices:
-    """Two triangles, (2 (r - 1) (c - 1), 3), for every cell of an (r, c) array of vertices."""
+def glued_grid(
+    n_rows: int, n_columns: int, rows: str, columns: str
+) -> tuple[Indices, Indices, Indices]:
+    """Row and column of every vertex, and the faces, (m, 3), of a grid glued to itself.
+
+    Every one of the n_rows n_columns cells becomes two triangles.  `rows` says how the last row of
+    vertices meets the first ("open" or "join"), `columns` the same for columns ("open", "join", or
+    "twist": with rows reversed).
+    """
+    i, j = np.divmod(np.arange((n_rows + 1) * (n_columns + 1)), n_columns + 1)
+    if columns != "open":
+        seam = j == n_columns
+        i = np.where(seam & (columns == "twist"), n_rows - i, i)
+        j = np.where(seam, 0, j)
+    if rows == "join":
+        i = np.where(i == n_rows, 0, i)
+    keys, index = np.unique(i * (n_columns + 1) + j, return_inverse=True)
+    row, column = np.divmod(keys, n_columns + 1)
+    index = index.reshape(n_rows + 1, -1)
     a, b, c, d = index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]
-    return np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3).astype(np.int64)
+    return row, column, np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
 
 
 def icosahedron() -> tuple[Floats, Indices]:

@@ -1,4 +1,4 @@
-"""Surfaces by construction: grids glued to themselves, boundaries of voxels, Delaunay flips.
+"""Surfaces by construction: embedded grids, boundaries of voxels, Delaunay flips.
 
 Positions use + - * / and sqrt only, so that they are the same bits on every machine.
 """
@@ -11,28 +11,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.sample import circle, grid_faces, uniform
+from ebz.codec.sample import circle, glued_grid, uniform
 
 Array = npt.NDArray[Any]
 Surface = tuple[Array, Array]
-
-
-def glued_grid(n_rows: int, n_columns: int, rows: str, columns: str) -> tuple[Array, Array, Array]:
-    """Row and column of every vertex, and the faces, of a grid glued to itself.
-
-    `rows` says how the last row meets the first ("open" or "join"), `columns` the same for columns
-    ("open", "join", or "twist": with rows reversed).
-    """
-    i, j = np.divmod(np.arange((n_rows + 1) * (n_columns + 1)), n_columns + 1)
-    if columns != "open":
-        seam = j == n_columns
-        i = np.where(seam & (columns == "twist"), n_rows - i, i)
-        j = np.where(seam, 0, j)
-    if rows == "join":
-        i = np.where(i == n_rows, 0, i)
-    keys, index = np.unique(i * (n_columns + 1) + j, return_inverse=True)
-    row, column = np.divmod(keys, n_columns + 1)
-    return row, column, grid_faces(index.reshape(n_rows + 1, -1))
 
 
 def cylinder(n_rows: int, n_columns: int) -> Surface:
@@ -136,7 +118,7 @@ def delaunay_flips(vertices: Array, faces: Array) -> Array:
         opposite |= {(a, b): c, (b, c): a, (c, a): b}
     points = vertices.tolist()
     pending = deque(edge for edge in opposite if edge[0] < edge[1])
-    # Each flip shortens the surface's Dirichlet energy; the bound only guards against rounding.
+    # In the plane flips come to an end; on a curved surface only the bound says so.
     for _ in range(50 * len(opposite)):
         if not pending:
             break

@@ -12,8 +12,7 @@ from hypothesis import note
 from hypothesis import strategies as st
 
 from ebz.codec.mesh import Mesh
-from ebz.codec.sample import random_triangulation
-from samples.surfaces import glued_grid
+from ebz.codec.sample import glued_grid, random_triangulation
 from tests import surgery
 from tests.surgery import Faces, Rng, n_used
 
