@@ -5,17 +5,13 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from ebz.codec.models.chosen import LOOP_60
-from ebz.codec.models.integers import table_of
-from ebz.codec.models.loops import CONSTRAINTS
-from ebz.codec.models.markov import optimal_model
-from ebz.codec.models.search import best_automaton
+from ebz.codec.models.fit import fit
 from ebz.codec.models.table import TABLES, Table
 
 
 def loop_60() -> Table:
-    """The table `loop-60`."""
-    return table_of(optimal_model(best_automaton(LOOP_60), CONSTRAINTS), "loop-60")
+    """The table `loop-60`: 3.3172 bits per vertex; the 60 most visited states give 3.3233."""
+    return fit(loops=4, max_length=14, max_conflict=14, n_states=60, name="loop-60")
 
 
 def main(folder: Path) -> None:

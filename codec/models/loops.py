@@ -68,10 +68,13 @@ def clipped(state: State, loops: int, max_length: int, max_conflict: int) -> Sta
     return canonical((lengths[0], k if k <= max_conflict else UNBOUNDED, *lengths[1:]))
 
 
-def loop_automaton(loops: int, max_length: int, max_conflict: int) -> Automaton:
+def loop_automaton(
+    loops: int, max_length: int, max_conflict: int, max_states: int = 1 << 20
+) -> Automaton:
     """The sound automaton that knows `loops` loops, lengths and conflicts up to the limits.
 
-    State 0 is the unknown stack.  Raises OptionError where a limit is out of range.
+    State 0 is the unknown stack.  Raises OptionError where a limit is out of range or there are
+    more than max_states states.
     """
     if not (1 <= loops <= 8 and 3 <= max_length < UNBOUNDED and 1 <= max_conflict < UNBOUNDED):
         raise OptionError(
@@ -83,7 +86,7 @@ def loop_automaton(loops: int, max_length: int, max_conflict: int) -> Automaton:
         for symbol, target in successors(state):
             yield symbol, clipped(target, loops, max_length, max_conflict)
 
-    return build(SYMBOLS, UNKNOWN, step)
+    return build(SYMBOLS, UNKNOWN, step, max_states)
 
 
 def redirected_automaton(loops: int, max_length: int) -> Automaton:
@@ -95,13 +98,21 @@ def redirected_automaton(loops: int, max_length: int) -> Automaton:
 
     def step(state: State) -> Iterable[tuple[int, State]]:
         for symbol, target in successors(state):
-            if symbol == S and len(state) == 2:
-                continue
-            length, k, *below = target
-            long = any(max_length < x for x in (length, *below))
-            yield symbol, start if long else (length, k, *below[: loops - 1])
+            known = canonical(target[: loops + 1])
+            long = any(max_length < x < UNBOUNDED for x in (known[0], *known[2:]))
+            yield symbol, start if long else known
 
-    return build(SYMBOLS, start, step)
+    return build(SYMBOLS, start, step).minimised()
+
+
+def accepts(automaton: Automaton, word: str) -> bool:
+    """Whether the automaton allows the reverse CLRSE word."""
+    state = 0
+    for symbol in word:
+        state = int(automaton.targets[state, SYMBOLS.index(symbol)])
+        if state < 0:
+            return False
+    return True
 
 
 def _add(bound: int, step: int) -> int:

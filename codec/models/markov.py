@@ -29,6 +29,10 @@ from ebz.codec.models.solvers import (
 GRADIENT_TOLERANCE = 1e-10
 # Beyond this a minimisation has run away: weights of e^40 to one.
 MAX_MULTIPLIER = 40.0
+# From here on a linear program is asked whether there is a minimum at all.
+SUSPECT_MULTIPLIER = 10.0
+# A smaller flow through every transition is none: the linear program's tolerance.
+MIN_FLOW = 1e-9
 
 
 @dataclass(eq=False)
@@ -94,29 +98,42 @@ def _constrained(automaton: Automaton, matrix: Floats, start: Floats) -> MarkovM
         multipliers, gradient = minimise(log_root, start, GRADIENT_TOLERANCE)
     except _RanAwayError:
         gradient = np.inf
+    far = np.isinf(gradient) or np.abs(multipliers @ matrix).max() > SUSPECT_MULTIPLIER
+    if (far or gradient > 1e-6) and (reason := _why_infeasible(automaton, matrix)):
+        raise OptionError(f"constraints: {reason}")
     if gradient > 1e-6:
-        raise OptionError(f"constraints: {_why_infeasible(automaton, matrix)}")
+        raise OptionError(f"constraints: no convergence (gradient {gradient:.1e})")
     return _model(automaton, matrix, multipliers, last)
 
 
-def _why_infeasible(automaton: Automaton, matrix: Floats) -> str:
-    """What a linear program over circulations says: the largest flow that every edge can carry."""
+def _why_infeasible(automaton: Automaton, matrix: Floats) -> str | None:
+    """What stands against the constraints, by the circulation whose least edge flow is largest.
+
+    A circulation is a mix of cycles; the flow of edge e is x_e + t, and t > 0 is what makes the
+    minimum of the dual attained.
+    """
     source, symbol, target = automaton.edges()
-    n, m = len(automaton), len(source)
+    n, m, n_rows = len(automaton), len(source), len(matrix)
     edge = np.arange(m)
-    balance = sparse_rows(
-        (np.r_[np.ones(m), -np.ones(m)], np.r_[source, target], np.r_[edge, edge]), (n, m)
-    ).toarray()
-    rows = np.vstack([balance, matrix[:, symbol], np.ones((1, m))])
-    equal = np.hstack([rows, rows.sum(axis=1, keepdims=True)])  # flow of an edge: x_e + t
-    right = np.r_[np.zeros(n + len(matrix)), 1.0]
-    flow = linear_program(
-        np.r_[np.zeros(m), -1.0], None, (equal, right), [(0, None)] * (m + 1)
-    )  # fmt: skip
+    row = np.repeat(np.arange(n, n + n_rows), m)
+    values = np.r_[np.ones(m), -np.ones(m), matrix[:, symbol].ravel(), np.ones(m)]
+    rows = np.r_[source, target, row, np.full(m, n + n_rows)]
+    columns = np.r_[edge, edge, np.tile(edge, n_rows), edge]
+    all_rows = sparse_rows((values, rows, columns), (n + n_rows + 1, m))
+    sums = np.asarray(all_rows.sum(axis=1)).ravel()
+    entries = (
+        np.r_[values, sums],
+        np.r_[rows, np.arange(len(sums))],
+        np.r_[columns, np.full(len(sums), m)],
+    )
+    equal = sparse_rows(entries, (n + n_rows + 1, m + 1))
+    right = np.r_[np.zeros(n + n_rows), 1.0]
+    flow = linear_program(np.r_[np.zeros(m), -1.0], None, (equal, right), [(0, None)] * (m + 1))
     if flow is None:
         return "no infinite word of the automaton satisfies them"
-    unused = flow[-1] < 1e-12
-    return "only words that avoid some transition satisfy them" if unused else "no convergence"
+    if flow[-1] < MIN_FLOW:
+        return "only words that avoid some transition satisfy them"
+    return None
 
 
 def _perron(automaton: Automaton, weights: Floats, start: Perron | None) -> Perron:

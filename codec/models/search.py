@@ -205,21 +205,27 @@ class Search:
                 return True
         return False
 
+    def settle(self) -> None:
+        """Exchange states until no exchange helps."""
+        while self.exchange():
+            pass
+
+    def shake(self, n_dropped: int, rng: np.random.Generator) -> None:
+        """Exchange `n_dropped` random states for the best, and settle; kept where it helps."""
+        before = self.best
+        dropped = rng.choice(np.arange(1, len(before.chosen)), n_dropped, replace=False)
+        self.best = self.evaluate([int(s) for s in np.delete(before.chosen, dropped)], None)
+        self.grow(len(before.chosen))
+        self.settle()
+        if self.best.root > before.root:
+            self.best = before
+
     def refit(self) -> float:
         """Take the weights that are optimal for the best choice; returns its bits per vertex."""
         model = optimal_model(automaton_of(self.among, self.best), CONSTRAINTS)
         self.weights = model.weights
         self.best = self.evaluate(self.best.chosen, None)
         return 2 * model.bits_per_symbol
-
-
-def best_automaton(states: Sequence[State]) -> Automaton:
-    """The automaton of these states, each transition led where fewest words still follow."""
-    search = Search(candidates_of(states), range(len(states)))
-    bits = np.inf
-    while (new := search.refit()) < bits - 1e-12:
-        bits = new
-    return automaton_of(search.among, search.best)
 
 
 def _dominant(matrix: Floats, vector: Floats) -> tuple[float, Floats]:
