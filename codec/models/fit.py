@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 import numpy as np
 
 from ebz.codec.errors import OptionError
 from ebz.codec.models.automaton import Automaton
 from ebz.codec.models.integers import table_of
-from ebz.codec.models.loops import CONSTRAINTS, loop_automaton
+from ebz.codec.models.loops import CONSTRAINTS, UNBOUNDED, UNKNOWN, State, loop_automaton
 from ebz.codec.models.markov import optimal_model
 from ebz.codec.models.search import Candidates, Search, automaton_of, candidates
 from ebz.codec.models.table import MAX_STATES, Table
@@ -16,8 +18,8 @@ MAX_CHOSEN = 400
 MAX_CANDIDATES = 1 << 16
 # After this many states were added the weights are fitted anew.
 GROWTH = 10
-N_SHAKES = 2
-SHAKEN = 10
+# The unknown stack, the one after L, and the loops of three and four edges, which need each other.
+FIRST: tuple[State, ...] = (UNKNOWN, (UNBOUNDED, 1), (3, 1), (4, 1), (4, 2))
 
 
 def fit(
@@ -38,23 +40,39 @@ def fit(
 
 
 def best_automaton(loops: int, max_length: int, max_conflict: int, n_states: int) -> Automaton:
-    """The best automaton of n_states found: states added, exchanged, and shaken with a fixed seed.
+    """The best automaton of n_states found: states added one by one, then exchanged.
 
     Raises OptionError where a limit is out of range.
     """
-    if not 2 <= n_states <= MAX_CHOSEN:
-        raise OptionError(f"fit: {n_states} states to choose, not 2 to {MAX_CHOSEN}")
-    search = Search(_candidates(loops, max_length, max_conflict))
+    if not len(FIRST) <= n_states <= MAX_CHOSEN:
+        raise OptionError(f"fit: {n_states} states to choose, not {len(FIRST)} to {MAX_CHOSEN}")
+    search = _search(loops, max_length, max_conflict)
     for n in (*range(GROWTH, n_states, GROWTH), n_states):
-        search.grow(n)
-        search.refit()
+        _grow(search, n)
     search.settle()
     search.refit()
-    rng = np.random.default_rng(60)
-    for _ in range(N_SHAKES):
-        search.shake(min(SHAKEN, n_states - 1), rng)
-        search.refit()
     return automaton_of(search.among, search.best)
+
+
+def growing_automata(
+    loops: int, max_length: int, max_conflict: int, sizes: Iterable[int]
+) -> Iterator[Automaton]:
+    """Automata of increasing numbers of states, added one by one and never exchanged."""
+    search = _search(loops, max_length, max_conflict)
+    for n in sizes:
+        _grow(search, n)
+        yield automaton_of(search.among, search.best)
+
+
+def _grow(search: Search, n: int) -> None:
+    search.grow(n)
+    search.refit()
+
+
+def _search(loops: int, max_length: int, max_conflict: int) -> Search:
+    """A search that starts from states none of which helps alone."""
+    among = _candidates(loops, max_length, max_conflict)
+    return Search(among, [among.states.index(state) for state in FIRST if state in among.states])
 
 
 def _candidates(loops: int, max_length: int, max_conflict: int) -> Candidates:

@@ -41,7 +41,8 @@ class MarkovModel:
 
     probabilities: (n, a) of each symbol in each state, 0 where forbidden; rows sum to 1.
     states: (n,) stationary probabilities of the states; symbols: (a,) of the symbols.
-    multipliers: (m,) one per constraint, in nats.  weights: (a,) of the symbols.
+    multipliers: (m,) in nats, for the constraints divided by their largest entries.
+    weights: (a,) of the symbols.
     residual: relative width of the bracket of the Perron root.
     """
 
@@ -73,6 +74,7 @@ def optimal_model(
     matrix = np.zeros((0, n_symbols)) if constraints is None else np.array(constraints, float)
     if matrix.ndim != 2 or matrix.shape[1] != n_symbols:
         raise OptionError(f"constraints: shape {matrix.shape} is not (m, {n_symbols})")
+    matrix = matrix / np.maximum(np.abs(matrix).max(axis=1, keepdims=True, initial=0), 1)
     if not len(matrix):
         return _model(automaton, matrix, np.zeros(0), None)
     return _constrained(automaton, matrix, np.asarray(start, float))

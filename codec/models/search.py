@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import chain, product
 
 import numpy as np
 import numpy.typing as npt
@@ -41,13 +41,14 @@ class Candidates:
     """All states that may be chosen, as bounds; state 0 is the unknown stack.
 
     bounds: (m, w) uint8.  after: (m, 5, w) uint8, the bounds after each symbol.
-    allowed: (m, 5) bool.
+    allowed: (m, 5) bool.  exact: (m, 5), the candidate with just the bounds after, or -1.
     """
 
     states: list[State]
     bounds: Bounds
     after: Bounds
     allowed: Bools
+    exact: npt.NDArray[np.intp]
 
     def __post_init__(self) -> None:
         self._into: dict[int, Bools] = {}
@@ -86,7 +87,9 @@ def candidates_of(states: Sequence[State]) -> Candidates:
             allowed[i, symbol] = True
             after[i, symbol] = _padded(target, width)
     bounds = np.array([_padded(state, width) for state in states], np.uint8)
-    return Candidates(list(states), bounds, after, allowed)
+    place = {row: i for i, row in enumerate(map(tuple, bounds.tolist()))}
+    exact = [[place.get(tuple(row), FORBIDDEN) for row in rows] for rows in after.tolist()]
+    return Candidates(list(states), bounds, after, allowed, np.array(exact))
 
 
 def _padded(state: State, width: int) -> list[int]:
@@ -113,13 +116,13 @@ class Search:
     def __init__(self, among: Candidates, chosen: Sequence[int] = (0,)) -> None:
         self.among = among
         self.weights = np.array([2.17, 0.46, 0.46, 0.19, 1.10])
-        self.best = self.evaluate(list(chosen), None)
+        self.best = self.evaluate(list(chosen))
 
-    def evaluate(self, chosen: list[int], start: Floats | None) -> Choice:
+    def evaluate(self, chosen: list[int]) -> Choice:
         """The best targets for these states by policy iteration, and the Perron vectors."""
         options = np.stack([self.among.into(state)[chosen] for state in chosen], axis=2)
         allowed = self.among.allowed[chosen]
-        right = np.ones(len(chosen)) if start is None else start
+        right = np.ones(len(chosen))
         targets = np.full(allowed.shape, FORBIDDEN)
         while True:
             values = np.where(options, right, np.inf)
@@ -142,14 +145,18 @@ class Search:
         np.add.at(matrix, (source, targets[source, symbol]), self.weights[symbol])
         return matrix
 
-    def gains(self, choice: Choice) -> Floats:
-        """(m,) how much, to first order, each candidate would lower the root."""
+    def gains(self, choice: Choice, *, ahead: bool = False) -> Floats:
+        """(m,) how much, to first order, each candidate would lower the root.
+
+        `ahead` supposes that the candidates just after it are added too.
+        """
         among = self.among
-        value = np.full(among.allowed.shape, np.inf)
-        for state, right in zip(choice.chosen, choice.right, strict=True):
-            np.minimum(value, right, out=value, where=among.into(state))
-        value[~among.allowed] = 0
+        value = self._value_after(choice)
         own = (value @ self.weights) / choice.root
+        if ahead:
+            value = np.where(among.exact >= 0, np.minimum(value, own[among.exact]), value)
+            value[~among.allowed] = 0
+            own = (value @ self.weights) / choice.root
         gain = np.zeros(len(own))
         for i, state in enumerate(choice.chosen):
             out = among.out_of(state)
@@ -159,11 +166,19 @@ class Search:
         gain[choice.chosen] = 0
         return gain
 
+    def _value_after(self, choice: Choice) -> Floats:
+        """(m, 5) least value of a chosen state where a candidate's symbol may lead, 0 forbidden."""
+        value = np.full(self.among.allowed.shape, np.inf)
+        for state, right in zip(choice.chosen, choice.right, strict=True):
+            np.minimum(value, right, out=value, where=self.among.into(state))
+        value[~self.among.allowed] = 0
+        return value
+
     def losses(self, choice: Choice) -> Floats:
         """(n,) how much, to first order, leaving out each chosen state would raise the root."""
         options = np.stack([self.among.into(s)[choice.chosen] for s in choice.chosen], axis=2)
         values = np.where(options, choice.right, np.inf)
-        source, symbol = np.nonzero(choice.targets >= 0)
+        source, symbol = np.nonzero(choice.targets > 0)
         target = choice.targets[source, symbol]
         rows = values[source, symbol]
         rows[np.arange(len(rows)), target] = np.inf
@@ -178,54 +193,61 @@ class Search:
     def grow(self, n: int) -> None:
         """Add states one by one, the best of those of largest estimated gain."""
         while len(self.best.chosen) < n:
-            tried = list(self._additions(self.best))
-            if not tried:
+            larger = self._larger(self.best)
+            if larger is None:
                 return
-            self.best = min(tried, key=lambda choice: choice.root)
+            self.best = larger
 
-    def _additions(self, choice: Choice, tried: int = TRIED) -> Iterator[Choice]:
-        gain = self.gains(choice)
-        for state in np.argsort(-gain, kind="stable")[:tried]:
+    def _larger(self, choice: Choice) -> Choice | None:
+        return min(self._additions(choice), key=_root, default=None)
+
+    def _smaller(self, choice: Choice) -> Choice:
+        return min(self._removals(choice), key=_root)
+
+    def _additions(self, choice: Choice, *, ahead: bool = False) -> Iterator[Choice]:
+        gain = self.gains(choice, ahead=ahead)
+        for state in np.argsort(-gain, kind="stable")[:TRIED]:
             if gain[state] > 0:
-                yield self.evaluate([*choice.chosen, int(state)], np.r_[choice.right, 1e-3])
+                yield self.evaluate([*choice.chosen, int(state)])
 
-    def _removals(self, choice: Choice, tried: int = TRIED) -> Iterator[Choice]:
-        for i in np.argsort(self.losses(choice), kind="stable")[:tried]:
+    def _removals(self, choice: Choice) -> Iterator[Choice]:
+        for i in np.argsort(self.losses(choice), kind="stable")[:TRIED]:
             if i:
-                chosen = [*choice.chosen[:i], *choice.chosen[i + 1 :]]
-                yield self.evaluate(chosen, np.delete(choice.right, i))
+                yield self.evaluate([*choice.chosen[:i], *choice.chosen[i + 1 :]])
 
     def exchange(self) -> bool:
-        """Exchange one state for another where that lowers the root; False where none does."""
-        before = self.best.root
-        for larger in sorted(self._additions(self.best), key=lambda choice: choice.root):
-            smaller = min(self._removals(larger), key=lambda choice: choice.root)
-            if smaller.root < before * (1 - IMPROVEMENT):
+        """Exchange one or two states for others where that lowers the root; else False."""
+        limit = self.best.root * (1 - IMPROVEMENT)
+        for smaller in chain(self._single_exchanges(), self._double_exchanges()):
+            if smaller.root < limit:
                 self.best = smaller
                 return True
         return False
+
+    def _single_exchanges(self) -> Iterator[Choice]:
+        for larger in sorted(self._additions(self.best), key=_root):
+            yield self._smaller(larger)
+
+    def _double_exchanges(self) -> Iterator[Choice]:
+        for larger in self._additions(self.best, ahead=True):
+            for largest in sorted(self._additions(larger), key=_root)[:2]:
+                yield self._smaller(self._smaller(largest))
 
     def settle(self) -> None:
         """Exchange states until no exchange helps."""
         while self.exchange():
             pass
 
-    def shake(self, n_dropped: int, rng: np.random.Generator) -> None:
-        """Exchange `n_dropped` random states for the best, and settle; kept where it helps."""
-        before = self.best
-        dropped = rng.choice(np.arange(1, len(before.chosen)), n_dropped, replace=False)
-        self.best = self.evaluate([int(s) for s in np.delete(before.chosen, dropped)], None)
-        self.grow(len(before.chosen))
-        self.settle()
-        if self.best.root > before.root:
-            self.best = before
-
     def refit(self) -> float:
         """Take the weights that are optimal for the best choice; returns its bits per vertex."""
         model = optimal_model(automaton_of(self.among, self.best), CONSTRAINTS)
         self.weights = model.weights
-        self.best = self.evaluate(self.best.chosen, None)
+        self.best = self.evaluate(self.best.chosen)
         return 2 * model.bits_per_symbol
+
+
+def _root(choice: Choice) -> float:
+    return choice.root
 
 
 def _dominant(matrix: Floats, vector: Floats) -> tuple[float, Floats]:

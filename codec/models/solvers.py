@@ -13,6 +13,10 @@ from scipy.sparse import coo_matrix, csr_matrix
 
 Floats = npt.NDArray[np.float64]
 
+# Relative change per step at which a power iteration has converged.
+PRECISION = 1e-12
+MAX_STEPS = 100_000
+
 
 @dataclass(eq=False)
 class Perron:
@@ -32,31 +36,31 @@ def sparse(source: Any, target: Any, values: Any, n: int) -> Any:
     return csr_matrix((values, (source, target)), shape=(n, n))
 
 
-def perron(matrix: Any, start: Perron | None = None, tolerance: float = 1e-12) -> Perron:
-    """The Perron root and vectors by power iteration on M + 1 (paper, section 3).
+def perron(matrix: Any, start: Perron | None = None) -> Perron:
+    """The Perron root and vectors by the shifted power iteration of the paper's section 3.
 
-    The shift makes an irreducible matrix primitive, so that the iteration converges.
-    `start` gives vectors to start from.
+    The shift (M / root estimate + 1) makes an irreducible matrix primitive, which is when the
+    iteration converges.  `start` gives vectors to start from.
     """
     n = matrix.shape[0]
-    right, left = (start.right, start.left) if start else (np.ones(n), np.ones(n))
-    right, _ = _power(matrix, right, tolerance)
-    left, _ = _power(matrix.T.tocsr(), left, tolerance)
+    right = _power(matrix, start.right if start else np.ones(n))
+    left = _power(matrix.T.tocsr(), start.left if start else np.ones(n))
     image = matrix @ right
     ratios = image / right
     root = float(left @ image / (left @ right))
     return Perron(root, right, left, float(ratios.max() - ratios.min()) / root)
 
 
-def _power(matrix: Any, vector: Floats, tolerance: float) -> tuple[Floats, int]:
-    n_steps = 100000
-    for step in range(n_steps):
-        new = matrix @ vector + vector
+def _power(matrix: Any, vector: Floats) -> Floats:
+    vector = new = vector / vector.sum()
+    for step in range(MAX_STEPS):
+        image = matrix @ vector
+        new = image / image.sum() + vector
         new /= new.sum()
-        if step % 8 == 7 and np.abs(new / vector - 1).max() < tolerance:
-            return new, step
+        if step % 8 == 7 and np.abs(new / vector - 1).max() < PRECISION:
+            break
         vector = new
-    return vector, n_steps
+    return np.asarray(new)
 
 
 def minimise(
