@@ -30,8 +30,7 @@ from ebz.codec.models.table import FREQUENCY_BITS, C, E, S, Table
 
 Floats = npt.NDArray[np.float64]
 
-# How often the bounds of a state may grow before they count as unknown: bounds of a sound table
-# settle much earlier, those of an unsound one might grow for ever.
+# How often the bounds of a state may grow before a bound that still grows counts as unknown.
 WIDENING = 64
 METHOD = (
     "cost: linear program over the transitions; soundness: bounds of the stack carried to a fixed "
@@ -49,7 +48,7 @@ class Certificate:
     bits_per_c n_C + bits_per_other n_O + bits_per_special n_X + bits_per_component n_P
     + bits_per_word, and at least (1 - spread) (bits_per_c n_C + bits_per_other n_O) less
     bits_below_per_component n_P + bits_below_per_special n_X + bits_below_per_word.
-    bits_per_vertex is bits_per_c + bits_per_other.
+    bits_per_vertex is bits_per_c + bits_per_other.  prices: what the proof charges for each symbol.
     """
 
     model: str
@@ -58,6 +57,7 @@ class Certificate:
     bits_per_vertex: float
     bits_per_c: float
     bits_per_other: float
+    prices: dict[str, float]
     bits_per_word: float
     bits_per_component: float
     bits_per_special: float
@@ -118,15 +118,21 @@ def _bounds(table: Table) -> list[State]:
             joined = _join(bounds[target], after)
             if joined != bounds[target]:
                 n_grown[target] += 1
-                bounds[target] = joined if n_grown[target] < WIDENING else UNKNOWN
+                settled = n_grown[target] < WIDENING
+                bounds[target] = joined if settled else _widened(bounds[target], joined)
                 todo.append(target)
     return bounds
 
 
 def _join(a: State, b: State) -> State:
     """The tightest bounds that hold wherever `a` or `b` do (() holds nowhere)."""
-    larger = tuple(max(x, y) for x, y in zip(a, b, strict=False)) if a else b
-    return canonical(tuple(x if x < UNBOUNDED else UNBOUNDED for x in larger))
+    return canonical(tuple(map(max, zip(a, b, strict=False)))) if a else b
+
+
+def _widened(before: State, grown: State) -> State:
+    """The bounds that did not grow; the others, which might grow for ever, become unknown."""
+    kept = (new if new == old else UNBOUNDED for old, new in zip(before, grown, strict=False))
+    return canonical(tuple(kept))
 
 
 @dataclass(eq=False)
@@ -192,6 +198,7 @@ def _certificate(table: Table, moves: _Transitions) -> Certificate:
         bits_per_vertex=c_c + c_other,
         bits_per_c=c_c,
         bits_per_other=c_other,
+        prices={"C": c_c, "L": c_other, "R": c_other, "S": c_other + delta, "E": c_other - delta},
         bits_per_word=float(phi[0] - phi.min()),
         bits_per_component=-delta,
         bits_per_special=float((special + phi[0] - phi[at]).max()) - c_other,

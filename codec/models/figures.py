@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
-from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from ebz.codec.errors import OptionError
 from ebz.codec.models import theory
 
-FORMATS = (".svg", ".png")
+FORMATS = ("svg", "png")
 
 
-def draw(number: int, path: str | PathLike[str]) -> None:
-    """Write figure 1, 2 or 4 to an .svg or .png file.
+def draw(number: int, format: str) -> bytes:
+    """Figure 1, 2 or 4 as a file of the format "svg" or "png"; the same bytes each time.
 
     Raises OptionError for another figure or format, or where matplotlib is not installed.
     """
     if number not in FIGURES:
         raise OptionError(f"figure {number}: there are 1, 2 and 4")
-    if Path(path).suffix not in FORMATS:
-        raise OptionError("the figure's name must end in .svg or .png", source=str(path))
+    if format not in FORMATS:
+        raise OptionError(f"figure: format {format!r} is not svg or png")
     try:
         from matplotlib import rc_context  # noqa: PLC0415  optional, and slow to import
         from matplotlib.figure import Figure  # noqa: PLC0415
     except ImportError:
         raise OptionError("figures need matplotlib: pip install 'ebz[figures]'") from None
-    # The salt and the missing date make the same figure the same bytes.
+    buffer = io.BytesIO()
     with rc_context({"svg.hashsalt": "ebz", "svg.fonttype": "none"}):
         figure = Figure(figsize=(8, 4.5), layout="constrained")
         FIGURES[number](figure)
-        metadata = {"Date": None} if Path(path).suffix == ".svg" else {"Software": None}
-        figure.savefig(path, metadata=metadata)
+        metadata = {"Date": None} if format == "svg" else {"Software": None}
+        figure.savefig(buffer, format=format, metadata=metadata)
+    return buffer.getvalue()
 
 
 def _figure_1(figure: Any) -> None:
@@ -57,7 +57,7 @@ def _figure_2(figure: Any) -> None:
 
 
 def _figure_4(figure: Any) -> None:
-    points = list(theory.figure_4())
+    points = [theory.Point(**row) for row in theory.figure_4()["rows"]]
     bound, growth = figure.subplots(1, 2)
     for curve in dict.fromkeys(point.curve for point in points):
         on = sorted((p for p in points if p.curve == curve), key=lambda p: p.states)

@@ -47,7 +47,7 @@ def successors(state: State) -> Iterator[tuple[int, State]]:
     yield R, canonical((_add(length, 1), UNBOUNDED, *below))
     yield E, canonical((3, 1, length, *below))
     if below:
-        joined = UNBOUNDED if UNBOUNDED in (length, below[0]) else length + below[0] - 1
+        joined = min(length + below[0] - 1, UNBOUNDED)
         yield S, canonical((joined, _add(below[0], -1), *below[1:]))
     else:
         yield S, UNKNOWN
@@ -116,4 +116,5 @@ def accepts(automaton: Automaton, word: str) -> bool:
 
 
 def _add(bound: int, step: int) -> int:
-    return bound if bound == UNBOUNDED else bound + step
+    """The bound after a step; Invariant: no bound is above UNBOUNDED, which absorbs."""
+    return bound if bound == UNBOUNDED else min(bound + step, UNBOUNDED)

@@ -93,7 +93,7 @@ def candidates_of(states: Sequence[State]) -> Candidates:
 
 
 def _padded(state: State, width: int) -> list[int]:
-    return [min(x, UNBOUNDED) for x in (*state, *[UNBOUNDED] * width)][:width]
+    return [*state, *[UNBOUNDED] * width][:width]
 
 
 @dataclass(eq=False)

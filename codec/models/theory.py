@@ -5,8 +5,8 @@ S. Gumhold, Optimizing Markov Models with Applications to Triangular Connectivit
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import log2
@@ -117,8 +117,12 @@ LIMITS = {1: (4, 6, 8, 12, 16), 2: (4, 6, 8, 12, 20), 3: (4, 5, 6, 8, 12), 4: (5
 CHOSEN = (5, 7, 10, 20, 30, 40, 60, 80, 100)
 
 
-def figure_4() -> Iterator[Point]:
-    """Figure 4: bound and growth against the number of states, one automaton at a time."""
+def figure_4() -> dict[str, Any]:
+    """Figure 4: bound and growth against the number of states; a Point as a dict in each row."""
+    return {"rows": [asdict(point) for point in _points()]}
+
+
+def _points() -> Iterator[Point]:
     for loops, limits in LIMITS.items():
         for limit in limits:
             yield _point(f"{loops} loops", loop_automaton(loops, limit, limit))
@@ -136,3 +140,6 @@ def _point(curve: str, automaton: Automaton, *, sound: bool = True) -> Point:
         log2_alpha=optimal_model(automaton).bits_per_symbol,
         sound=sound,
     )
+
+
+FIGURES: dict[int, Callable[[], dict[str, Any]]] = {1: figure_1, 2: figure_2, 4: figure_4}

@@ -1,0 +1,180 @@
+"""`ebz model`: the tables that the connectivity coder takes its probabilities from."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ebz.codec.errors import OptionError
+
+if TYPE_CHECKING:
+    from ebz.codec.models.table import Table
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print one line of JSON.")
+force = click.option("-f", "--force", is_flag=True, help="Overwrite OUTPUT.")
+named = click.argument("model", metavar="NAME|FILE")
+
+EPILOG = """\b
+Examples:
+  ebz model list
+  ebz model certify loop-60
+  ebz model fit --loops 3 --max-length 8 --max-conflict 8 -o big.npz
+  ebz compress --model big.npz bunny.ply
+"""
+
+
+@click.group(epilog=EPILOG)
+def model() -> None:
+    """Make, show and certify models of the connectivity coder.
+
+    A model gives the probability of each symbol of the CLRSE word. Its certificate bounds the
+    bits per vertex on every mesh of genus 0, whatever its shape.
+    """
+
+
+@model.command("list")
+@as_json
+def list_models(as_json: bool) -> None:
+    """List the built-in models with their guaranteed bits per vertex."""
+    from ebz.codec.models.certify import certify  # noqa: PLC0415
+    from ebz.codec.models.table import Table, table_names  # noqa: PLC0415
+
+    found = [certify(Table.load(name)) for name in table_names()]
+    rows = {c.model: {"states": c.states, "bits_per_vertex": c.bits_per_vertex} for c in found}
+    _print(rows, as_json)
+
+
+@model.command()
+@named
+@as_json
+def show(model: str, as_json: bool) -> None:
+    """Show a model: its states, its size, its bound, and what each symbol costs in bits."""
+    from ebz.codec.models.summary import summary  # noqa: PLC0415
+
+    _print(summary(_load(model)), as_json)
+
+
+@model.command()
+@named
+@as_json
+def certify(model: str, as_json: bool) -> None:
+    """Derive the guarantee of a model from its integers alone, or say why there is none."""
+    from ebz.codec.models.certify import certify as derive  # noqa: PLC0415
+
+    _print(derive(_load(model)).as_dict(), as_json)
+
+
+@model.command()
+@click.option("--loops", default=2, show_default=True, help="Loops of the stack to remember.")
+@click.option("--max-length", default=12, show_default=True, help="Longest loop to remember.")
+@click.option("--max-conflict", default=12, show_default=True, help="Largest conflict to remember.")
+@click.option(
+    "--states", "n_states", type=int, help="Choose that many of the states, as well as is found."
+)
+@click.option("-o", "--output", metavar="TABLE", required=True, help='File to write ("-": stdout).')
+@force
+@as_json
+def fit(output: str, force: bool, as_json: bool, **limits: Any) -> None:
+    """Fit a model to the language of all meshes and write its table.
+
+    Prints the certificate, unless the table goes to standard output.
+    """
+    from ebz.codec.models.certify import certify  # noqa: PLC0415
+    from ebz.codec.models.fit import fit as fit_table  # noqa: PLC0415
+
+    _refuse_to_overwrite(output, force)
+    name = "fit" if output == "-" else Path(output).stem
+    table = fit_table(**limits, name=name)
+    certificate = certify(table)
+    _write(output, table.to_bytes())
+    if output != "-":
+        _print(certificate.as_dict(), as_json)
+
+
+@model.command()
+@click.argument("number", type=click.Choice(["1", "2", "4"]))
+@click.option("-o", "--output", metavar="FILE", help="File to draw, .svg or .png.")
+@force
+@as_json
+def figure(number: str, output: str | None, force: bool, as_json: bool) -> None:
+    """Reproduce figure 1, 2 or 4 of the paper, as a drawing or as its numbers.
+
+    \b
+    1  probabilities and word counts of the golden-mean language
+    2  its bits per symbol under a constraint on one symbol
+    4  bits per vertex and growth of loop automata against their number of states
+    """
+    if (output is None) == (not as_json):
+        raise click.UsageError("Give -o FILE or --json.")
+    if output is None:
+        from ebz.codec.models.theory import FIGURES  # noqa: PLC0415
+
+        _print(FIGURES[int(number)](), as_json)
+        return
+    from ebz.codec.models.figures import draw  # noqa: PLC0415
+
+    _refuse_to_overwrite(output, force)
+    _write(output, draw(int(number), Path(output).suffix.removeprefix(".")))
+
+
+def _load(name: str) -> Table:
+    from ebz.codec.models.table import Table  # noqa: PLC0415
+
+    return Table.load(name)
+
+
+def _refuse_to_overwrite(output: str, force: bool) -> None:
+    if output == "-" and sys.stdout.isatty():
+        raise OptionError("refusing to write binary data to a terminal")
+    if output != "-" and not force and Path(output).exists():
+        raise OptionError("it exists; -f overwrites it", source=output)
+
+
+def _write(output: str, data: bytes) -> None:
+    if output == "-":
+        sys.stdout.buffer.write(data)
+        return
+    try:
+        Path(output).write_bytes(data)
+    except OSError as error:
+        raise OptionError(f"cannot write it: {error.strerror}", source=output) from None
+
+
+def _print(result: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        import json  # noqa: PLC0415
+
+        click.echo(json.dumps(result))
+        return
+    if all(isinstance(value, dict) for value in result.values()):
+        _print_rows(result)
+        return
+    width = max(map(len, result))
+    for name, value in result.items():
+        if isinstance(value, dict) and all(isinstance(cell, dict) for cell in value.values()):
+            click.echo()
+            _print_rows(value)
+        elif isinstance(value, dict):
+            click.echo(f"{name:{width}}  " + "  ".join(f"{k} {_text(v)}" for k, v in value.items()))
+        else:
+            click.echo(f"{name:{width}}  {_text(value)}")
+
+
+def _print_rows(rows: dict[str, dict[str, Any]]) -> None:
+    """A table with one line per row and one aligned column per field."""
+    names = list(next(iter(rows.values())))
+    first = max(map(len, rows))
+    cells = {row: [_text(values[name]) for name in names] for row, values in rows.items()}
+    widths = [
+        max(len(name), *(len(row[i]) for row in cells.values())) for i, name in enumerate(names)
+    ]
+    for label, row in {"": names, **cells}.items():
+        columns = (f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True))
+        click.echo(f"{label:{first}}  " + "  ".join(columns))
+
+
+def _text(value: Any) -> str:
+    return f"{value:.4f}" if isinstance(value, float) else str(value)
