@@ -1,0 +1,32 @@
+"""The entry point of the shell tool: nothing heavy is imported before signals are in order."""
+
+import os
+import signal
+import sys
+
+# Signals that end the process quietly, by their own means, so that a shell sees 128 + signal.
+QUIET = (signal.SIGINT, signal.SIGPIPE)
+
+
+def main() -> int:
+    """Runs the command line and returns the exit status: 0, 1 (an error) or 2 (a difference)."""
+    for number in QUIET:
+        # Python itself ignores SIGPIPE; an inherited "ignore" of SIGINT (nohup, `&`) is kept.
+        if number == signal.SIGPIPE or signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+    _occupy_standard_descriptors()
+    from ebz.cli import group  # noqa: PLC0415
+
+    return group.run(sys.argv[1:])
+
+
+def _occupy_standard_descriptors() -> None:
+    """A descriptor closed by the caller (`>&-`) must not become that of the first file opened.
+
+    It is opened the wrong way round, so that using it fails as if it were still closed.
+    """
+    for descriptor, flags in ((0, os.O_WRONLY), (1, os.O_RDONLY), (2, os.O_RDONLY)):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, flags)
