@@ -11,10 +11,10 @@ from ebz.cli.messages import Progress
 
 EPILOG = """\b
 Examples:
-  ebz compress bunny.ply                     writes bunny.ply.ebz, without loss
-  ebz compress --bits 14 -o b.ebz bunny.ply  positions on a grid of 2^14 steps
+  ebz compress bunny.ply                     writes bunny.ply.ebz
+  ebz compress --bits 14 -o b.ebz bunny.ply  a grid of 2^14 steps
   ebz compress --max-error 0.005 *.stl       no coordinate moves by more
-  make-mesh | ebz compress > mesh.ebz        the format is recognised by content
+  make-mesh | ebz compress > mesh.ebz        recognised by content
 
 On a terminal, one line per file tells the sizes; -q omits it, -v says more.
 """

@@ -20,9 +20,9 @@ DEFAULT_FORMAT = "ply"
 
 EPILOG = """\b
 Examples:
-  ebz decompress bunny.ply.ebz               writes bunny.ply, as it was
-  ebz decompress --to obj bunny.ply.ebz      writes bunny.obj
-  ebz decompress -c bunny.ply.ebz | head     text formats may go to a terminal
+  ebz decompress bunny.ply.ebz            writes bunny.ply, as it was
+  ebz decompress --to obj bunny.ply.ebz   writes bunny.obj
+  ebz decompress -c bunny.ply.ebz | head  text formats may go to a terminal
   curl -s $URL | ebz decompress > bunny.ply
 """
 

@@ -12,6 +12,7 @@ from ebz.codec.errors import DroppedWarning, EbzError
 STDIN = "(stdin)"
 STDOUT = "(stdout)"
 STDERR_FD = 2
+UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 CLEAR_LINE = "\r\033[K"
 # Control characters from file names and file contents do not reach a terminal.
 ESCAPES = {code: f"\\x{code:02x}" for code in (*range(9), *range(11, 32), 127)}
@@ -74,13 +75,14 @@ def stderr_is_terminal() -> bool:
 
 
 def human_size(n_bytes: int) -> str:
-    """`n_bytes` in four digits at most: 512 B, 1.21 MiB."""
+    """`n_bytes` in three digits, more below 1 KiB only: 512 B, 1.21 MiB."""
     if n_bytes < 1024:
         return f"{n_bytes} B"
     size, unit = float(n_bytes), 0
-    while size >= 1000 and unit < 4:
+    while size >= 999.5 and unit < len(UNITS) - 1:
         size, unit = size / 1024, unit + 1
-    return f"{size:#.3g} {('B', 'KiB', 'MiB', 'GiB', 'TiB')[unit]}"
+    decimals = 2 if size < 9.995 else 1 if size < 99.95 else 0
+    return f"{size:.{decimals}f} {UNITS[unit]}"
 
 
 class Progress:

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import click
 
 FORMATS = ("ply", "obj", "off", "stl", "gltf", "glb")
-POWERS = {unit: power for power, unit in enumerate(("", "k", "m", "g", "t"))}
+POWERS = {unit: power for power, unit in enumerate((None, "k", "m", "g", "t"))}
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -20,11 +20,12 @@ class Size(click.ParamType):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         if isinstance(value, int):
             return value
-        parts = re.fullmatch(r"(\d+(?:\.\d+)?) ?([kmgt]?)(i?b)?|(\d+) ?b", value, re.I | re.A)
-        if not parts or (parts[3] and not parts[2]):
+        parts = re.fullmatch(r"(\d{1,15}(?:\.\d+)?) ?(?:([kmgt])(i?b)?|b)?", value, re.I | re.A)
+        if not parts:
             self.fail(f"{value!r} is not a size such as 64MiB, 1GB or 500k.", param, ctx)
-        base = 1000 if (parts[3] or "").lower() == "b" else 1024
-        n_bytes = int(float(parts[1] or parts[4]) * base ** POWERS[(parts[2] or "").lower()])
+        number, unit, suffix = (part and part.lower() for part in parts.groups())
+        base = 1000 if suffix == "b" else 1024
+        n_bytes = int(float(number) * base ** POWERS[unit])
         if n_bytes < 1:
             self.fail(f"{value!r} leaves no memory at all.", param, ctx)
         return n_bytes

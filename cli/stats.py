@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 EPILOG = """\b
 Examples:
   ebz stats bunny.ply.ebz
-  ebz stats bunny.ply                        what compress would make of it
+  ebz stats bunny.ply  what compress would make of it
   ebz stats --json *.ebz | jq .connectivity_bytes
 """
 
