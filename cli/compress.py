@@ -91,7 +91,7 @@ def _compress_one(
     read_options: dict[str, Any],
     coding: dict[str, Any],
 ) -> None:
-    import ebz  # noqa: PLC0415
+    import ebz
 
     summary = Summary(manner)
     mesh = ebz.read(source.mesh_source(), **read_options)

@@ -80,7 +80,7 @@ def decompress(
 
 
 def _decode(packed: bytes, source: Input, manner: Manner, memory_limit: int) -> "Mesh":
-    import ebz  # noqa: PLC0415
+    import ebz
 
     progress = Progress(source.name, quiet=manner.quiet)
     try:
@@ -90,7 +90,7 @@ def _decode(packed: bytes, source: Input, manner: Manner, memory_limit: int) -> 
 
 
 def _encode(mesh: "Mesh", format_name: str) -> memoryview:
-    import ebz  # noqa: PLC0415
+    import ebz
 
     buffer = BytesIO()
     ebz.write(buffer, mesh, format=format_name)

@@ -69,11 +69,11 @@ class Input:
     def _read_all(self, descriptor: int, limit: int | None) -> bytes:
         pieces, n_bytes = [], 0
         expected = self.status.st_size if stat.S_ISREG(self.status.st_mode) else 0
+        _check_limit(expected, limit)
         while piece := os.read(descriptor, max(PIECE_BYTES, expected - n_bytes)):
             pieces.append(piece)
             n_bytes += len(piece)
-            if limit is not None and n_bytes > limit:
-                raise MemoryLimitError(f"has more bytes than the memory limit of {limit}")
+            _check_limit(n_bytes, limit)
         self.n_bytes = n_bytes
         return pieces[0] if len(pieces) == 1 else b"".join(pieces)
 
@@ -85,7 +85,7 @@ class Input:
         if self.is_file:
             self.n_bytes = self.status.st_size
             return self.path
-        from io import BytesIO  # noqa: PLC0415
+        from io import BytesIO
 
         return BytesIO(self.read() if data is None else data)
 
@@ -95,9 +95,12 @@ class Input:
 
 
 class Output:
-    """An output that may be written; whether it may be is known before the work starts."""
+    """An output that may be written; whether it may be is known before the work starts.
 
-    def __init__(self, name: str, source: Input, *, force: bool) -> None:
+    `source` is the input that it must not overwrite and whose mode and time it gets.
+    """
+
+    def __init__(self, name: str, source: Input | None, *, force: bool) -> None:
         self.descriptor = 1 if name == "-" else descriptor_of(name)
         self.name = STDOUT if name == "-" else name
         self.path = name
@@ -108,6 +111,8 @@ class Output:
             self._check()
 
     def _check(self) -> None:
+        if self.path.endswith("/"):
+            raise EbzError("is a folder", source=self.name)
         try:
             status = Path(self.path).stat()
         except OSError:
@@ -120,7 +125,7 @@ class Output:
         self.is_file = stat.S_ISREG(mode)
         if stat.S_ISDIR(mode):
             raise EbzError("is a folder", source=self.name)
-        if self.is_file and os.path.samestat(status, self._source.status):
+        if self.is_file and self._source and os.path.samestat(status, self._source.status):
             raise EbzError("is the input, which would be overwritten", source=self.name)
         if (self.is_file or stat.S_ISBLK(mode)) and not self._force:
             raise atomic.already_exists(self.name)
@@ -146,7 +151,7 @@ class Output:
             if self.descriptor is not None:
                 _write_chunks(self.descriptor, chunks)
             elif self.is_file:
-                like = self._source.status if self._source.is_file else None
+                like = self._source.status if self._source and self._source.is_file else None
                 atomic.write_whole(self.path, chunks, like=like, replace=self._force)
             else:
                 self._write_special(chunks)
@@ -157,6 +162,11 @@ class Output:
             _write_chunks(self.descriptor, chunks)
         finally:
             os.close(self.descriptor)
+
+
+def _check_limit(n_bytes: int, limit: int | None) -> None:
+    if limit is not None and n_bytes > limit:
+        raise MemoryLimitError(f"has more bytes than the memory limit of {limit}")
 
 
 def _write_chunks(descriptor: int, chunks: Iterable[bytes | memoryview]) -> None:

@@ -15,7 +15,9 @@ def main() -> int:
         if number == signal.SIGPIPE or signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, signal.SIG_DFL)
     _occupy_standard_descriptors()
-    from ebz.cli import group  # noqa: PLC0415
+    # No command multiplies large matrices; starting a thread per core takes tens of milliseconds.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    from ebz.cli import group
 
     return group.run(sys.argv[1:])
 

@@ -39,7 +39,7 @@ def stats(inputs: tuple[str, ...], as_json: bool, memory_limit: int) -> int:
 
 
 def _stats(source: Input, memory_limit: int) -> "Stats":
-    import ebz  # noqa: PLC0415
+    import ebz
 
     data = source.read(memory_limit)
     try:

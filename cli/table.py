@@ -28,7 +28,7 @@ def show(result: dict[str, Any], name: str, *, as_json: bool, titled: bool) -> N
 def text_of(result: dict[str, Any]) -> str:
     """The lines of `result`: a column of names and one of values, nested dicts as sections.
 
-    A dict of dicts with the same keys becomes a table with a column per key.
+    Dicts or a list of dicts with the same keys become a table with a column per key.
     """
     lines = list(_section(result, 0))
     return "".join(line.rstrip() + "\n" for line in lines)
@@ -36,7 +36,7 @@ def text_of(result: dict[str, Any]) -> str:
 
 def json_of(result: dict[str, Any]) -> str:
     """`result` as one line of JSON; values that JSON has no number for are null."""
-    import json  # noqa: PLC0415
+    import json
 
     return json.dumps(_finite(result), allow_nan=False) + "\n"
 
@@ -53,36 +53,52 @@ def _finite(value: Any) -> Any:
 
 def _section(section: dict[str, Any], indent: int) -> Iterator[str]:
     pad = "  " * indent
-    plain = {key: value for key, value in section.items() if not isinstance(value, dict)}
+    plain = {key: value for key, value in section.items() if not _is_nested(value)}
     width = max((len(_title(key)) for key in plain), default=0)
-    cells = {key: _cell(value) for key, value in plain.items()}
-    number_width = max((len(cells[key]) for key in plain if _is_number(plain[key])), default=0)
+    numbers = [_cell(value) for value in plain.values() if _is_number(value)]
+    number_width = max(map(len, numbers), default=0)
     for key, value in section.items():
-        if isinstance(value, dict):
+        if _is_nested(value):
             yield pad + _title(key)
-            yield from _rows(value, indent + 1) if _is_table(value) else _section(value, indent + 1)
+            yield from _nested(value, indent + 1)
         else:
-            cell = cells[key].rjust(number_width) if _is_number(value) else cells[key]
+            cell = _cell(value).rjust(number_width if _is_number(value) else 0)
             yield f"{pad}{_title(key):<{width}}  {cell}"
 
 
-def _is_table(section: dict[str, Any]) -> bool:
-    rows = list(section.values())
-    return len(rows) > 1 and all(
-        isinstance(row, dict) and row and list(row) == list(rows[0]) for row in rows
+def _is_nested(value: Any) -> bool:
+    return isinstance(value, dict) or _is_table(value)
+
+
+def _nested(value: Any, indent: int) -> Iterator[str]:
+    if not isinstance(value, dict):
+        return _rows(value, indent)
+    rows = [{"": _title(key)} | row for key, row in value.items() if isinstance(row, dict)]
+    if len(rows) == len(value) > 1 and _is_table(rows):
+        return _rows(rows, indent)
+    return _section(value, indent) if value else iter(["  " * indent + "-"])
+
+
+def _is_table(value: Any) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) > 0
+        and all(isinstance(row, dict) and list(row) == list(value[0]) for row in value)
     )
 
 
-def _rows(table: dict[str, dict[str, Any]], indent: int) -> Iterator[str]:
-    columns = list(next(iter(table.values())))
-    cells = [["", *map(_title, columns)]]
-    cells += [
-        [_title(name), *(_cell(row[column]) for column in columns)] for name, row in table.items()
-    ]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    for name, *values in cells:
-        aligned = [value.rjust(width) for value, width in zip(values, widths[1:], strict=True)]
-        yield "  " * indent + "  ".join([name.ljust(widths[0]), *aligned])
+def _rows(table: list[dict[str, Any]], indent: int) -> Iterator[str]:
+    columns = [_column(key, [row[key] for row in table]) for key in table[0]]
+    for cells in zip(*columns, strict=True):
+        yield "  " * indent + "  ".join(cells)
+
+
+def _column(key: str, values: list[Any]) -> list[str]:
+    """The cells of a column and its title, all of one width; text to the left, numbers right."""
+    cells = [_title(key), *map(_cell, values)]
+    width = max(map(len, cells))
+    is_text = any(isinstance(value, str) for value in values)
+    return [cell.ljust(width) if is_text else cell.rjust(width) for cell in cells]
 
 
 def _title(key: str) -> str:

@@ -44,7 +44,7 @@ def verify(inputs: tuple[str, ...], against: str | None, as_json: bool, memory_l
     reference = _Reference(against, memory_limit)
 
     def work(name: str) -> int:
-        import ebz  # noqa: PLC0415
+        import ebz
 
         data = Input(name, follow=True).read(memory_limit)
         result = ebz.verify(data, reference.mesh(), memory_limit=memory_limit)
@@ -64,7 +64,7 @@ class _Reference:
 
     def mesh(self) -> Any:
         if self._mesh is None and self._name is not None:
-            import ebz  # noqa: PLC0415
+            import ebz
 
             source = Input(self._name, follow=True)
             self._mesh = ebz.read(source.mesh_source(), memory_limit=self._memory_limit)

@@ -55,7 +55,7 @@ def test_a_folder_without_write_permission_is_an_error(sh, tmp_path):
     assert (result.status, result.stdout) == (1, b"")
     assert result.stderr.startswith(f"ebz: {folder}/x.ebz: ".encode())
     assert result.stderr.count(b"\n") == 1
-    assert not any(name.startswith(".ebz") for name in os.listdir(folder))
+    assert not list(folder.glob(".ebz*"))
 
 
 def test_the_longest_name_that_fits_is_written(sh, names):
@@ -160,4 +160,4 @@ def test_outputs_go_next_to_inputs_in_other_folders(sh, tmp_path):
     with tempfile.TemporaryDirectory() as other:
         (Path(other) / "a.ply").write_bytes(TETRAHEDRON)
         assert sh(f"ebz compress {other}/a.ply") == NOTHING
-        assert set(os.listdir(other)) == {"a.ply", "a.ply.ebz"}
+        assert {path.name for path in Path(other).iterdir()} == {"a.ply", "a.ply.ebz"}

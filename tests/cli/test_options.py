@@ -36,7 +36,7 @@ def test_other_sizes_are_usage_errors(text):
 
 
 def test_the_formats_are_those_of_the_package():
-    from ebz.formats import meshes  # noqa: PLC0415
+    from ebz.formats import meshes
 
     assert set(options.FORMATS) == set(meshes.FORMATS)
     assert all(meshes.suffix_of(name) == f".{name}" for name in options.FORMATS)

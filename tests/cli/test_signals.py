@@ -46,10 +46,10 @@ def _write(
 
 @pytest.mark.parametrize("number", ENDING)
 @pytest.mark.parametrize("act", ["os.kill(os.getpid(), {})", "from_thread({})"])
-def test_a_signal_while_writing_leaves_nothing(tmp_path, number, act):
+def test_a_signal_while_writing_leaves_nothing(tmp_path, names, number, act):
     done = _write(tmp_path, act.format(int(number)))
     assert (done.returncode, done.stdout, done.stderr) == (-number, b"", b"")
-    assert os.listdir(tmp_path) == []
+    assert names() == set()
 
 
 def test_a_signal_while_overwriting_leaves_the_old_file(tmp_path):
@@ -65,9 +65,9 @@ def test_a_kill_while_writing_leaves_no_partial_output(tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-def test_an_error_while_writing_leaves_nothing(tmp_path):
+def test_an_error_while_writing_leaves_nothing(tmp_path, names):
     done = _write(tmp_path, "raise MemoryError")
-    assert (done.returncode, os.listdir(tmp_path)) == (1, [])
+    assert (done.returncode, names()) == (1, set())
 
 
 def test_a_file_that_appears_meanwhile_is_not_overwritten(tmp_path):
@@ -97,14 +97,14 @@ def _started(folder: Path) -> tuple["subprocess.Popen[bytes]", int]:
 
 
 @pytest.mark.parametrize("number", [*ENDING, signal.SIGKILL])
-def test_a_signal_while_reading_leaves_nothing(tmp_path, number):
+def test_a_signal_while_reading_leaves_nothing(tmp_path, names, number):
     process, pipe = _started(tmp_path)
     os.write(pipe, b"ply\n")
     process.send_signal(number)
     assert process.communicate(timeout=60) == (b"", b"")
     os.close(pipe)
     assert process.returncode == -number
-    assert os.listdir(tmp_path) == ["in.ply"]
+    assert names() == {"in.ply"}
 
 
 @pytest.mark.parametrize("number", [*ENDING, signal.SIGKILL])
@@ -124,7 +124,7 @@ def test_a_signal_at_any_moment_leaves_all_or_nothing(tmp_path, number):
         process.send_signal(number)
         assert process.communicate(timeout=60) == (b"", b"")
         assert process.returncode in (0, -number)
-        left = set(os.listdir(folder)) - {"in.ply"}
+        left = {path.name for path in folder.iterdir()} - {"in.ply"}
         if "in.ply.ebz" in left:
             assert (folder / "in.ply.ebz").read_bytes() == whole
         if number != signal.SIGKILL:
