@@ -9,7 +9,7 @@ SOURCES := $(shell find api codec formats cli -name '*.py' -o -name '*.pyi' -o -
 # Python files are links in the editable install: only a new file list needs a reinstall.
 KERNELS := $(filter codec/kernels/%,$(SOURCES))
 
-.PHONY: install demo test check stubs bench clean files
+.PHONY: install demo test check stubs bench clean FORCE
 
 install: $(STAMP)
 
@@ -17,11 +17,10 @@ $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 # Rewritten only when the list of files differs, or when build/, which the install links to, is gone.
-$(VENV)/files: files | $(BIN)/python
-files:
-	@mkdir -p $(VENV)
-	@test -d build || rm -f $(VENV)/files
-	@echo '$(SOURCES)' | cmp -s - $(VENV)/files || echo '$(SOURCES)' > $(VENV)/files
+$(VENV)/files: FORCE | $(BIN)/python
+	@test -d build || rm -f $@
+	@echo '$(SOURCES)' | cmp -s - $@ || echo '$(SOURCES)' > $@
+FORCE:
 
 $(STAMP): $(VENV)/files $(KERNELS) pyproject.toml setup.py | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[test,check]'

@@ -39,8 +39,8 @@ def model() -> None:
 @as_json
 def list_models(as_json: bool) -> None:
     """List the built-in models with their guaranteed bits per vertex."""
-    from ebz.codec.models.certify import certify  # noqa: PLC0415
-    from ebz.codec.models.table import Table, table_names  # noqa: PLC0415
+    from ebz.codec.models.certify import certify
+    from ebz.codec.models.table import Table, table_names
 
     found = [certify(Table.load(name)) for name in table_names()]
     rows = {c.model: {"states": c.states, "bits_per_vertex": c.bits_per_vertex} for c in found}
@@ -52,7 +52,7 @@ def list_models(as_json: bool) -> None:
 @as_json
 def show(model: str, as_json: bool) -> None:
     """Show a model: its states, its size, its bound, and what each symbol costs in bits."""
-    from ebz.codec.models.summary import summary  # noqa: PLC0415
+    from ebz.codec.models.summary import summary
 
     _print(summary(_load(model)), as_json)
 
@@ -62,7 +62,7 @@ def show(model: str, as_json: bool) -> None:
 @as_json
 def certify(model: str, as_json: bool) -> None:
     """Derive the guarantee of a model from its integers alone, or say why there is none."""
-    from ebz.codec.models.certify import certify as derive  # noqa: PLC0415
+    from ebz.codec.models.certify import certify as derive
 
     _print(derive(_load(model)).as_dict(), as_json)
 
@@ -82,8 +82,8 @@ def fit(output: str, force: bool, as_json: bool, **limits: Any) -> None:
 
     Prints the certificate, unless the table goes to standard output.
     """
-    from ebz.codec.models.certify import certify  # noqa: PLC0415
-    from ebz.codec.models.fit import fit as fit_table  # noqa: PLC0415
+    from ebz.codec.models.certify import certify
+    from ebz.codec.models.fit import fit as fit_table
 
     _refuse_to_overwrite(output, force)
     name = "fit" if output == "-" else Path(output).stem
@@ -110,18 +110,18 @@ def figure(number: str, output: str | None, force: bool, as_json: bool) -> None:
     if (output is None) == (not as_json):
         raise click.UsageError("Give -o FILE or --json.")
     if output is None:
-        from ebz.codec.models.theory import FIGURES  # noqa: PLC0415
+        from ebz.codec.models.theory import FIGURES
 
         _print(FIGURES[int(number)](), as_json)
         return
-    from ebz.codec.models.figures import draw  # noqa: PLC0415
+    from ebz.codec.models.figures import draw
 
     _refuse_to_overwrite(output, force)
     _write(output, draw(int(number), Path(output).suffix.removeprefix(".")))
 
 
 def _load(name: str) -> Table:
-    from ebz.codec.models.table import Table  # noqa: PLC0415
+    from ebz.codec.models.table import Table
 
     return Table.load(name)
 
@@ -145,7 +145,7 @@ def _write(output: str, data: bytes) -> None:
 
 def _print(result: dict[str, Any], as_json: bool) -> None:
     if as_json:
-        import json  # noqa: PLC0415
+        import json
 
         click.echo(json.dumps(result))
         return

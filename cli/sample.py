@@ -103,7 +103,7 @@ def random_triangulation(n_vertices: int, seed: int, **target: Any) -> int:
     (bijection of Poulalhon and Schaeffer, linear time). Positions are distinct points on a
     sphere that know nothing of the connectivity.
     """
-    from ebz.codec.sample import random_triangulation  # noqa: PLC0415
+    from ebz.codec.sample import random_triangulation
 
     return _write(lambda: random_triangulation(n_vertices, seed), **target)
 
@@ -115,7 +115,7 @@ def sphere(n_triangles: int, noise: float, seed: int, **target: Any) -> int:
 
     An icosahedron, each face cut into k^2 triangles.
     """
-    from ebz.codec.sample import sphere  # noqa: PLC0415
+    from ebz.codec.sample import sphere
 
     return _write(lambda: sphere(n_triangles, noise, seed), **target)
 
@@ -127,7 +127,7 @@ def torus(n_triangles: int, noise: float, seed: int, **target: Any) -> int:
 
     Its radii are 1 and 0.4, its connectivity is regular.
     """
-    from ebz.codec.sample import torus  # noqa: PLC0415
+    from ebz.codec.sample import torus
 
     return _write(lambda: torus(n_triangles, noise, seed), **target)
 
@@ -139,7 +139,7 @@ def grid(n_triangles: int, noise: float, seed: int, **target: Any) -> int:
 
     Over the unit square, with regular connectivity and a long boundary.
     """
-    from ebz.codec.sample import grid  # noqa: PLC0415
+    from ebz.codec.sample import grid
 
     return _write(lambda: grid(n_triangles, noise, seed), **target)
 
@@ -147,8 +147,8 @@ def grid(n_triangles: int, noise: float, seed: int, **target: Any) -> int:
 def _write(
     make: "Callable[[], Mesh]", *, output: str, target_format: str | None, force: bool
 ) -> int:
-    import ebz  # noqa: PLC0415
-    from ebz.formats.meshes import format_of_suffix  # noqa: PLC0415
+    import ebz
+    from ebz.formats.meshes import format_of_suffix
 
     target = Output(output, None, force=force)
     format_name = target_format or format_of_suffix(Path(output).suffix.lower()) or "ply"

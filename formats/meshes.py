@@ -1,13 +1,25 @@
 """Mesh files of every format, by the format's name; formats are imported when they are used."""
 
 from collections.abc import Callable
-from typing import Protocol
+from importlib import import_module
+from typing import Any, Protocol
 
 from ebz.codec.errors import OptionError
 from ebz.codec.mesh import Mesh
 from ebz.formats.detect import FORMATS, format_of, format_of_suffix, suffix_of
 
 __all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"]
+
+
+# Where read_FORMAT and write_FORMAT are.
+MODULES = {
+    "ply": ("ply", "ply_write"),
+    "obj": ("obj", "obj"),
+    "off": ("off", "off_write"),
+    "stl": ("stl", "stl_write"),
+    "gltf": ("gltf", "gltf"),
+    "glb": ("gltf", "gltf"),
+}
 
 
 class Reader(Protocol):
@@ -41,20 +53,16 @@ def write_mesh(mesh: Mesh, format: str) -> bytes:
 
 
 def _reader(format: str) -> Reader:
-    if format == "ply":
-        from ebz.formats.ply import read_ply
-
-        return read_ply
-    raise _unknown(format)
+    reader: Reader = _function(0, "read", format)
+    return reader
 
 
 def _writer(format: str) -> Callable[[Mesh], bytes]:
-    if format == "ply":
-        from ebz.formats.ply_write import write_ply
-
-        return write_ply
-    raise _unknown(format)
+    writer: Callable[[Mesh], bytes] = _function(1, "write", format)
+    return writer
 
 
-def _unknown(format: str) -> OptionError:
-    return OptionError(f"unknown mesh format {format!r}: one of {', '.join(FORMATS)}")
+def _function(which: int, verb: str, format: str) -> Any:
+    if format not in MODULES:
+        raise OptionError(f"unknown mesh format {format!r}: one of {', '.join(FORMATS)}")
+    return getattr(import_module(f"ebz.formats.{MODULES[format][which]}"), f"{verb}_{format}")

@@ -22,8 +22,8 @@ def draw(number: int, format: str) -> bytes:
     if format not in FORMATS:
         raise OptionError(f"figure: format {format!r} is not svg or png")
     try:
-        from matplotlib import rc_context  # noqa: PLC0415  optional, and slow to import
-        from matplotlib.figure import Figure  # noqa: PLC0415
+        from matplotlib import rc_context
+        from matplotlib.figure import Figure
     except ImportError:
         raise OptionError("figures need matplotlib: pip install 'ebz[figures]'") from None
     buffer = io.BytesIO()

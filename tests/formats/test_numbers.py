@@ -2,9 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-
 from ebz.codec.errors import DroppedWarning
 from ebz.formats.numbers import (
     format_numbers,
@@ -15,6 +12,8 @@ from ebz.formats.numbers import (
     rounded,
     shortest_as_float64,
 )
+from hypothesis import given
+from hypothesis import strategies as st
 
 
 def any_float32(n: int, seed: int) -> np.ndarray:
