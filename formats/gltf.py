@@ -115,7 +115,7 @@ def _open3d() -> Iterator[Any]:
     with _stdout_on_stderr():
         _preload_libusb()
         try:
-            import open3d  # noqa: PLC0415
+            import open3d
         except ImportError as error:
             raise EbzError(_advice(str(error))) from None
         level = open3d.utility.VerbosityLevel.Error
@@ -137,7 +137,7 @@ def _preload_libusb() -> None:
         ctypes.CDLL(LIBUSB, mode=ctypes.RTLD_GLOBAL)
         return
     with suppress(ImportError, OSError):
-        import libusb_package  # noqa: PLC0415
+        import libusb_package
 
         ctypes.CDLL(str(libusb_package.get_library_path()), mode=ctypes.RTLD_GLOBAL)
 

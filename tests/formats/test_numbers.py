@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from ebz.codec.errors import DroppedWarning
 from ebz.formats.numbers import (
     format_numbers,
@@ -12,8 +15,6 @@ from ebz.formats.numbers import (
     rounded,
     shortest_as_float64,
 )
-from hypothesis import given
-from hypothesis import strategies as st
 
 
 def any_float32(n: int, seed: int) -> np.ndarray:
