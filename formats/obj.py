@@ -32,7 +32,9 @@ from ebz.formats.text_floats import (
     Line,
     floats_at,
     integers_at,
+    one_line,
     reads_as_float32,
+    text_of,
     wide_if,
 )
 from ebz.formats.text_lines import words_per_line
@@ -115,7 +117,7 @@ def _sorted_lines(lines: list[Line]) -> tuple[dict[str, list[Line]], list[str]]:
             if not words:
                 continue
             if words[0].startswith(b"#"):
-                comments.append(item[1].strip()[1:].strip().decode("utf-8", "replace"))
+                comments.append(text_of(item[1].strip()[1:].strip()))
                 continue
             if not re.fullmatch(rb"[A-Za-z_]\w{0,31}", words[0]):
                 raise MeshError(f"line {item[0]}: {shown(words[0])} is no keyword")
@@ -219,12 +221,12 @@ def write_obj(mesh: Mesh) -> bytes:
     left = dict(mesh.vertex_attributes)
     extra = _extra_words(mesh, left)
     warn_attributes("OBJ", vertex=left, face=mesh.face_attributes)
-    comments = [str(c) for c in _comments(mesh)]
+    comments = _comments(mesh)
     if not len(mesh.vertices):
         comments.insert(0, EMPTY_MARK)
     if mesh.vertices.dtype == np.float64 and reads_as_float32(mesh.vertices):
         comments.insert(0, DOUBLE_MARK)
-    lines = [f"# {comment}".rstrip() for comment in comments]
+    lines = [f"# {comment}".rstrip(" ") for comment in comments]
     columns = [format_numbers(np.ascontiguousarray(mesh.vertices[:, i])) for i in range(3)]
     lines += [f"v {x} {y} {z}{more}" for x, y, z, more in zip(*columns, extra, strict=True)]
     corners = (mesh.faces.astype(np.int64) + 1).T.tolist()
@@ -232,11 +234,11 @@ def write_obj(mesh: Mesh) -> bytes:
     return "\n".join([*lines, ""]).encode()
 
 
-def _comments(mesh: Mesh) -> list[Any]:
+def _comments(mesh: Mesh) -> list[str]:
     flavour = mesh.metadata.get("obj")
     comments = flavour.get("comments") if isinstance(flavour, dict) else None
     known = comments if isinstance(comments, list) else []
-    return [" ".join(str(comment).split("\n")) for comment in known]
+    return [one_line(comment) for comment in known]
 
 
 def _extra_words(mesh: Mesh, left: dict[str, npt.NDArray[Any]]) -> list[str]:

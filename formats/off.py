@@ -35,6 +35,7 @@ from ebz.formats.text_floats import (
     Line,
     floats_at,
     integers_at,
+    text_of,
     wide_if,
 )
 from ebz.formats.text_lines import words_per_line
@@ -93,7 +94,7 @@ def _lines(data: bytes) -> tuple[list[Line], list[str]]:
     comments = []
     if b"#" in text:
         found = re.findall(rb"#([^\n]*)", text)
-        comments = [comment.strip().decode("utf-8", "replace") for comment in found]
+        comments = [text_of(comment.strip()) for comment in found]
         text = re.sub(rb"#[^\n]*", b"", text)
     return [item for item in enumerate(text.split(b"\n"), 1) if item[1].strip()], comments
 

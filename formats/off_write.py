@@ -9,7 +9,7 @@ from ebz.codec.mesh import Mesh
 from ebz.formats.dropped import warn_attributes
 from ebz.formats.numbers import format_numbers
 from ebz.formats.off import COLOR_NAMES, FACE_COLOR_NAMES
-from ebz.formats.text_floats import DOUBLE_MARK, reads_as_float32
+from ebz.formats.text_floats import DOUBLE_MARK, one_line, reads_as_float32
 
 
 def write_off(mesh: Mesh) -> bytes:
@@ -34,11 +34,12 @@ def write_off(mesh: Mesh) -> bytes:
     warn_attributes("OFF", vertex=left, face=left_faces)
     flavour = mesh.metadata.get("off")
     flavour = flavour if isinstance(flavour, dict) else {}
-    comments = flavour.get("comments") or []
+    found = flavour.get("comments")
+    comments = found if isinstance(found, list) else []
     if mesh.vertices.dtype == np.float64 and reads_as_float32(mesh.vertices):
         comments = [DOUBLE_MARK, *comments]
     edges = flavour.get("edges")
-    lines = [keyword, *(f"# {' '.join(str(c).splitlines())}".rstrip() for c in comments)]
+    lines = [keyword, *(f"# {one_line(c)}".rstrip(" ") for c in comments)]
     n_edges = edges if isinstance(edges, int) and edges >= 0 else 0
     lines.append(f"{len(mesh.vertices)} {len(mesh.faces)} {n_edges}")
     lines += map(" ".join, zip(*columns, strict=True))

@@ -175,10 +175,10 @@ def _flavour(header: Header) -> dict[str, Any]:
     lines: list[str | bytes] = []
     kept = True
     for line in header.lines:
-        words = line.split()
-        if isinstance(line, str) and words[0] == "element":
-            kept = words[1] in ("vertex", "face")
-        if kept or words[0] not in ("element", "property"):
+        if isinstance(line, str) and line.startswith("element "):
+            kept = line in ("element vertex", "element face")
+        is_comment = isinstance(line, bytes) or not line.startswith(("element ", "property "))
+        if kept or is_comment:
             lines.append(line)
     flavour: dict[str, Any] = {"format": header.format, "header": lines}
     if header.newline != "\n":

@@ -137,8 +137,10 @@ class _Block:
         columns: list[Column] = []
         for i, prop in enumerate(properties):
             values = self._parse(prop, words[i], np.array(rows[i], np.intp))
-            lists = Lists(np.array(lengths[i], prop.count_dtype), values)
-            columns.append(lists if prop.count_type else values)
+            if prop.count_type:
+                columns.append(Lists(np.array(lengths[i], prop.count_dtype), values))
+            else:
+                columns.append(values)
         return columns
 
     def _lengths(

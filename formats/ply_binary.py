@@ -183,9 +183,8 @@ def write_rows(element: Element, columns: list[Column], byte_order: ByteOrder) -
     lists = {i: column for i, column in enumerate(columns) if isinstance(column, Lists)}
     constant = {i: column.constant_length() for i, column in lists.items()}
     if None not in constant.values():
-        rows = np.arange(element.count)
         lengths = {i: n for i, n in constant.items() if n is not None}
-        return _table(element, columns, lengths, rows, byte_order).tobytes()
+        return _table(element, columns, lengths, None, byte_order).tobytes()
     return _write_uneven(element, columns, lists, byte_order)
 
 
@@ -193,18 +192,22 @@ def _table(
     element: Element,
     columns: list[Column],
     lengths: dict[int, int],
-    rows: npt.NDArray[Any],
+    rows: npt.NDArray[Any] | None,
     byte_order: ByteOrder,
 ) -> npt.NDArray[Any]:
-    """The given rows, all of which have lists of `lengths`, as a structured array."""
-    table = np.empty(len(rows), _row_dtype(element, lengths, byte_order))
+    """The given rows (None: all), which have lists of `lengths`, as a structured array."""
+    n = element.count if rows is None else len(rows)
+    table = np.empty(n, _row_dtype(element, lengths, byte_order))
     for i, column in enumerate(columns):
-        if isinstance(column, Lists):
-            first = np.cumsum(column.lengths, dtype=np.int64) - column.lengths
-            table[f"n{i}"] = lengths[i]
-            table[f"v{i}"] = column.values[first[rows][:, None] + np.arange(lengths[i])]
+        if not isinstance(column, Lists):
+            table[f"v{i}"] = column if rows is None else column[rows]
+            continue
+        table[f"n{i}"] = lengths[i]
+        if rows is None:
+            table[f"v{i}"] = column.values.reshape(n, lengths[i])
         else:
-            table[f"v{i}"] = column[rows]
+            first = np.cumsum(column.lengths, dtype=np.int64) - column.lengths
+            table[f"v{i}"] = column.values[first[rows][:, None] + np.arange(lengths[i])]
     return table
 
 

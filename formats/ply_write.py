@@ -70,15 +70,16 @@ def _lines(old: list[str | bytes], elements: list[Element]) -> list[str | bytes]
     lines: list[str | bytes] = []
     current: dict[str, str] = {}
     for line in old:
-        words = line.split()
-        if isinstance(line, bytes) or words[0] in ("comment", "obj_info"):
+        if isinstance(line, bytes) or not line.startswith(("element ", "property ")):
             lines.append(line)
-        elif words[0] == "property":
-            if words[-1] in current:
-                lines.append(current.pop(str(words[-1])))
+            continue
+        name = line.split(" ")[-1]
+        if line.startswith("property "):
+            if name in current:
+                lines.append(current.pop(name))
         else:
             lines += current.values()
-            current = left.pop(str(words[1]), {})
+            current = left.pop(name, {})
             if current:
                 lines.append(line)
     lines += current.values()
@@ -162,7 +163,7 @@ def _attribute_fields(
     for name, values in attributes.items():
         if name in counts:
             continue
-        if name in taken or name.split() != [name]:
+        if name in taken or not _is_name(name):
             warn_dropped(f"PLY cannot carry {owner} attribute {name!r} under this name")
             continue
         plain = _plain(values)
@@ -172,6 +173,12 @@ def _attribute_fields(
         lengths = attributes[name + COUNT_SUFFIX] if name + COUNT_SUFFIX in counts else None
         fields.append(_attribute_field(name, plain, lengths, declared.get(name), in_text))
     return fields
+
+
+def _is_name(name: str) -> bool:
+    """Whether `name` is one word of a header."""
+    word = name.encode(errors="replace")
+    return word.split() == [word] and word.decode() == name
 
 
 def _is_count(name: str, attributes: dict[str, npt.NDArray[Any]]) -> bool:

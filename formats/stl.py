@@ -29,6 +29,7 @@ from ebz.formats.detect import is_binary_stl
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import narrowed, parse_floats, shown
 from ebz.formats.stl_normals import follow_from
+from ebz.formats.text_floats import text_of
 from ebz.formats.weld import weld
 
 HEADER_SIZE = 80
@@ -121,7 +122,7 @@ def _solids(text: bytes) -> tuple[list[str], list[tuple[int, int]]]:
             parts.append((begin, match.start()))
             begin = -1
         else:
-            names.append(match[2].strip().decode("utf-8", "replace"))
+            names.append(text_of(match[2].strip()))
             begin = match.end()
     if begin >= 0:
         raise MeshError(f"{_line(text, len(text))}: early end of file, expected 'endsolid'")
@@ -169,16 +170,21 @@ def _numbers(words: list[bytes]) -> npt.NDArray[np.float64] | None:
 
 def _error(words: list[bytes], part: bytes, text: bytes, start: int, n_before: int) -> MeshError:
     """What is wrong with the first word that is not as it should be; `part` begins at `start`."""
-    ends = [match.start() for match in re.finditer(rb"\S+", part)]
-    for at, word in enumerate(words):
-        expected = WORDS[at % len(WORDS)]
-        where = f"{_line(text, start + ends[at])}: facet {n_before + at // len(WORDS)}"
-        if expected is not None and word != expected:
-            return MeshError(f"{where}: expected {expected.decode()!r}, found {shown(word)}")
-        if expected is None:
-            try:
-                parse_floats([word])
-            except ValueError:
-                return MeshError(f"{where}: {shown(word)} is no number")
-    facet = n_before + len(words) // len(WORDS)
+    width = len(WORDS)
+    for at, match in enumerate(re.finditer(rb"\S+", part)):
+        problem = _problem(match[0], WORDS[at % width])
+        if problem:
+            line = _line(text, start + match.start())
+            return MeshError(f"{line}: facet {n_before + at // width}: {problem}")
+    facet = n_before + len(words) // width
     return MeshError(f"{_line(text, start + len(part))}: facet {facet}: early end of solid")
+
+
+def _problem(word: bytes, expected: bytes | None) -> str | None:
+    if expected is not None:
+        return None if word == expected else f"expected {expected.decode()!r}, found {shown(word)}"
+    try:
+        parse_floats([word])
+    except ValueError:
+        return f"{shown(word)} is no number"
+    return None

@@ -11,7 +11,7 @@ from ebz.formats.dropped import warn_attributes, warn_dropped
 from ebz.formats.numbers import format_numbers
 from ebz.formats.stl import FACET, HEADER_SIZE
 from ebz.formats.stl_normals import facet_normals
-from ebz.formats.text_floats import reads_as_float32
+from ebz.formats.text_floats import one_line, reads_as_float32
 from ebz.formats.weld import weld
 
 FACET_TEXT = (
@@ -85,7 +85,7 @@ def _write_ascii(
     if corners.dtype == np.float64 and reads_as_float32(corners):
         warn_dropped("ascii STL cannot carry float64 where the text says no more than float32")
     names = flavour.get("names")
-    names = [" ".join(str(n).split()) for n in names] if isinstance(names, list) else []
+    names = [one_line(name) for name in names] if isinstance(names, list) else []
     solids = left.get("solid")
     of_face = np.zeros(len(corners), np.int64)
     if solids is not None and solids.ndim == 1 and solids.dtype.kind in "iu":
@@ -99,8 +99,8 @@ def _write_ascii(
     ends = np.searchsorted(of_face, np.arange(max(len(names), 1)), "right").tolist()
     parts, start = [], 0
     for name, end in zip(names or [""], ends, strict=True):
-        parts += [f"solid {name}".rstrip(), "\n", *facets[start:end]]
-        parts += [f"endsolid {name}".rstrip(), "\n"]
+        parts += [f"solid {name}".rstrip(" "), "\n", *facets[start:end]]
+        parts += [f"endsolid {name}".rstrip(" "), "\n"]
         start = end
     return "".join(parts).encode()
 

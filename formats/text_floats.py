@@ -22,6 +22,20 @@ EMPTY_MARK = "ebz: no vertices"
 Line: TypeAlias = tuple[int, bytes]
 
 
+def text_of(data: bytes) -> str:
+    """UTF-8, or Latin-1, which has a character for every byte."""
+    try:
+        return data.decode()
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def one_line(text: object) -> str:
+    """Text that comes from metadata, as one line that can be encoded."""
+    joined = str(text).replace("\r", " ").replace("\n", " ").strip(" \t\v\f")
+    return joined.encode(errors="replace").decode()
+
+
 def floats_at(words: Sequence[bytes], lines: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
     """Each word as float64; the error names the line that the word is in."""
     try:
