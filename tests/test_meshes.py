@@ -21,6 +21,7 @@ def test_flips_keep_a_simple_sphere(faces, n_flips, rng):
     assert is_simple_sphere(surgery.flip_edges(faces, n_flips, rng))
 
 
+@settings(max_examples=50)
 @given(simple_surfaces())
 def test_simple_surfaces_are_oriented_manifolds_without_double_edges(faces):
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2))
@@ -41,6 +42,7 @@ def test_discs_have_one_boundary_and_no_handle(faces):
     assert topology(faces) == (1, 1, 1, 0, 0, 0)
 
 
+@settings(max_examples=50)
 @given(meshes(with_attributes=True), rngs)
 def test_shuffling_gives_the_same_mesh(mesh, rng):
     other, order = surgery.shuffled(mesh, rng)
@@ -48,6 +50,7 @@ def test_shuffling_gives_the_same_mesh(mesh, rng):
     assert same_under(mesh, other, order)
 
 
+@settings(max_examples=50)
 @given(meshes(finite=True))
 def test_finite_meshes_are_finite(mesh):
     assert np.isfinite(mesh.vertices).all()
@@ -56,7 +59,7 @@ def test_finite_meshes_are_finite(mesh):
 def test_face_lists_have_every_kind_among_them():
     found: set[str] = set()
 
-    @settings(max_examples=300, database=None, derandomize=True)
+    @settings(max_examples=150, database=None, derandomize=True)
     @given(face_lists())
     def collect(faces):
         found.update(kinds(faces))
