@@ -12,23 +12,17 @@ POWERS = {unit: power for power, unit in enumerate((None, "k", "m", "g", "t"))}
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-class Size(click.ParamType):
+def size(text: str) -> int:
     """A number of bytes: 64MiB = 64M = 2^26, 1GB = 10^9, as in the GNU tools."""
-
-    name = "size"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
-        if isinstance(value, int):
-            return value
-        parts = re.fullmatch(r"(\d{1,15}(?:\.\d+)?) ?(?:([kmgt])(i?b)?|b)?", value, re.I | re.A)
-        if not parts:
-            self.fail(f"{value!r} is not a size such as 64MiB, 1GB or 500k.", param, ctx)
-        number, unit, suffix = (part and part.lower() for part in parts.groups())
-        base = 1000 if suffix == "b" else 1024
-        n_bytes = int(float(number) * base ** POWERS[unit])
-        if n_bytes < 1:
-            self.fail(f"{value!r} leaves no memory at all.", param, ctx)
-        return n_bytes
+    parts = re.fullmatch(r"(\d{1,15}(?:\.\d+)?) ?(?:([kmgt])(i?b)?|b)?", text, re.I | re.A)
+    if not parts:
+        raise click.BadParameter(f"{text!r} is not a size such as 64MiB, 1GB or 500k.")
+    number, unit, suffix = (part and part.lower() for part in parts.groups())
+    base = 1000 if suffix == "b" else 1024
+    n_bytes = int(float(number) * base ** POWERS[unit])
+    if n_bytes < 1:
+        raise click.BadParameter(f"{text!r} leaves no memory at all.")
+    return n_bytes
 
 
 class LevelOption(click.Option):
@@ -89,7 +83,7 @@ as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON o
 memory_limit = click.option(
     "--memory-limit",
     metavar="SIZE",
-    type=Size(),
+    type=size,
     default="4GiB",
     show_default=True,
     help="Refuse what needs more memory than this: 64MiB, 1GB, 500k.",

@@ -27,8 +27,7 @@ def test_no_input_and_dash_are_standard_input(sh):
         ebz compress < a.ply > 1 && ebz compress - < a.ply > 2 && cat a.ply | ebz compress -c > 3
         ebz compress -o - a.ply > 4 && ebz compress -o 5 < a.ply && ebz compress -o - - < a.ply > 6
         for i in 2 3 4 5 6; do cmp 1 $i; done
-        ebz decompress < 1 > out.ply && ebz decompress -c 1 | cmp - out.ply
-        cat 1 | ebz verify --against a.ply > report
+        ebz decompress < 1 > out.ply && cat 1 | ebz verify --against out.ply > report
     """
     assert sh(script) == NOTHING
 
@@ -174,15 +173,14 @@ def test_damage_is_an_error_of_one_line(sh, names):
     assert names() == {"a.ply", "a.ply.ebz", "cut.ebz", "empty.ebz", "mesh.ebz"}
 
 
-def test_the_memory_limit_holds(sh, names):
-    script = "ebz compress a.ply; ebz {} --memory-limit {} a.ply.ebz > out"
+def test_the_memory_limit_holds(sh):
+    assert sh("ebz compress a.ply") == NOTHING
     for command in ("decompress -c", "stats", "verify"):
-        result = sh(script.format(command, "100"))
-        assert result.status == 1
-        assert result.stderr.splitlines()[-1].startswith(b"ebz: a.ply.ebz: ")
-        sh("rm a.ply.ebz")
-        assert sh(script.format(command, "64MiB")) == NOTHING
-        sh("rm a.ply.ebz")
+        limited = f"ebz {command} --memory-limit {{}} a.ply.ebz > out"
+        result = sh(limited.format(100))
+        assert (result.status, result.stderr.count(b"\n")) == (1, 1)
+        assert result.stderr.startswith(b"ebz: a.ply.ebz: ") and b"limit" in result.stderr
+        assert sh(limited.format("64MiB")) == NOTHING
     assert sh("ebz stats --memory-limit 64QB a.ply") == Result(
         1,
         b"",

@@ -12,7 +12,7 @@ import pytest
 from tests.cli.shell import BIN, Result, environment, grid
 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-DELAYS_S = (0.0, 0.02, 0.05, 0.1, 0.2)
+DELAYS_S = (0.0, 0.03, 0.1, 0.2)
 
 # Writes three pieces; `act` is called before the second, when the temporary file has a part.
 WRITER = """

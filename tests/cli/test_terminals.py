@@ -66,7 +66,6 @@ def test_text_goes_to_a_terminal_and_binary_does_not(sh, terminal):
 def test_nothing_is_read_from_a_terminal(terminal, command):
     expected = (1, b"ebz: (stdin): is a terminal: name a file, or use a pipe\n")
     assert terminal(command, on=("stdin", "stderr")) == expected
-    assert terminal(command, "-", on=("stdin", "stderr")) == expected
 
 
 def test_a_summary_is_shown_on_a_terminal_unless_quiet(terminal, names):
