@@ -9,7 +9,7 @@ from ebz.cli.messages import STDIN, STDOUT, encode
 from ebz.codec.errors import EbzError
 
 STDOUT_FD = 1
-BITS_DECIMALS = 3
+THREE_DECIMALS = ("bits_per_vertex", "ratio")
 
 
 def show(result: dict[str, Any], name: str, *, as_json: bool, titled: bool) -> None:
@@ -55,14 +55,14 @@ def _section(section: dict[str, Any], indent: int) -> Iterator[str]:
     pad = "  " * indent
     plain = {key: value for key, value in section.items() if not _is_nested(value)}
     width = max((len(_title(key)) for key in plain), default=0)
-    numbers = [_cell(value) for value in plain.values() if _is_number(value)]
+    numbers = [_cell(key, value) for key, value in plain.items() if _is_number(value)]
     number_width = max(map(len, numbers), default=0)
     for key, value in section.items():
         if _is_nested(value):
             yield pad + _title(key)
             yield from _nested(value, indent + 1)
         else:
-            cell = _cell(value).rjust(number_width if _is_number(value) else 0)
+            cell = _cell(key, value).rjust(number_width if _is_number(value) else 0)
             yield f"{pad}{_title(key):<{width}}  {cell}"
 
 
@@ -95,7 +95,7 @@ def _rows(table: list[dict[str, Any]], indent: int) -> Iterator[str]:
 
 def _column(key: str, values: list[Any]) -> list[str]:
     """The cells of a column and its title, all of one width; text to the left, numbers right."""
-    cells = [_title(key), *map(_cell, values)]
+    cells = [_title(key), *(_cell(key, value) for value in values)]
     width = max(map(len, cells))
     is_text = any(isinstance(value, str) for value in values)
     return [cell.ljust(width) if is_text else cell.rjust(width) for cell in cells]
@@ -109,21 +109,14 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _cell(value: Any) -> str:
+def _cell(key: str, value: Any) -> str:
     match value:
         case None:
             return "-"
         case bool():
             return "yes" if value else "no"
         case float():
-            return _float(value)
+            return f"{value:.3f}" if key.endswith(THREE_DECIMALS) else f"{value:.6g}"
         case list() | tuple():
-            return ", ".join(map(_cell, value)) or "-"
+            return ", ".join(_cell(key, item) for item in value) or "-"
     return str(value)
-
-
-def _float(value: float) -> str:
-    """Three decimals as in bits per vertex, but no small error rounded to nothing."""
-    if (value and abs(value) < 0.1) or abs(value) >= 1e9:
-        return f"{value:.4g}"
-    return f"{value:.{BITS_DECIMALS}f}"

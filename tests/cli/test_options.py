@@ -84,7 +84,9 @@ def test_tables_align_names_and_numbers():
             "word": {"bytes": 7, "bits_per_vertex": 1.25},
             "positions": {"bytes": 1234, "bits_per_vertex": 12.0},
         },
-        "reference": {"tutte_limit": 3.2451, "largest_error": 1.5e-7},
+        "reference": {"tutte_limit_bits_per_vertex": 3.2451, "largest_error": 1.5e-7},
+        "kinds": [{"name": "a", "n": 1}, {"name": "bc", "n": 20}],
+        "attributes": {},
     }
     assert table.text_of(result) == (
         "vertices  12345\n"
@@ -95,8 +97,14 @@ def test_tables_align_names_and_numbers():
         "  word           7            1.250\n"
         "  positions   1234           12.000\n"
         "reference\n"
-        "  tutte limit      3.245\n"
-        "  largest error  1.5e-07\n"
+        "  tutte limit bits per vertex    3.245\n"
+        "  largest error                1.5e-07\n"
+        "kinds\n"
+        "  name   n\n"
+        "  a      1\n"
+        "  bc    20\n"
+        "attributes\n"
+        "  -\n"
     )
 
 
