@@ -32,10 +32,6 @@ Floats = npt.NDArray[np.float64]
 
 # How often the bounds of a state may grow before a bound that still grows counts as unknown.
 WIDENING = 64
-METHOD = (
-    "cost: linear program over the transitions; soundness: bounds of the stack carried to a fixed "
-    f"point, and every stack of at most {N_CHECKED_TRIANGLES} triangles"
-)
 # What the linear program's tolerance and the sums over a word may add to a cost.
 TOLERANCE = 1e-9
 
@@ -72,12 +68,15 @@ class Certificate:
         return asdict(self)
 
 
-def certify(table: Table) -> Certificate:
-    """The guarantee of a table; raises OptionError, with the reason, where there is none."""
+def certify(table: Table, n_triangles: int = N_CHECKED_TRIANGLES) -> Certificate:
+    """The guarantee of a table; raises OptionError, with the reason, where there is none.
+
+    n_triangles: up to how many triangles every stack is tried, besides the proof.
+    """
     table.check()
     proved = check_sound(table)
-    check_stacks(table)
-    return _certificate(table, _transitions(table, proved))
+    check_stacks(table, n_triangles)
+    return _certificate(_transitions(table, proved), table, n_triangles)
 
 
 def check_sound(table: Table) -> list[State]:
@@ -186,7 +185,7 @@ def _transitions(table: Table, proved: list[State]) -> _Transitions:
     return _Transitions(len(table.frequencies), source, symbol, target, cost)
 
 
-def _certificate(table: Table, moves: _Transitions) -> Certificate:
+def _certificate(moves: _Transitions, table: Table, n_triangles: int) -> Certificate:
     phi, c_c, c_other, delta = _upper(moves)
     psi, spread, delta_below = _lower(moves, c_c, c_other)
     is_s = moves.symbol == S
@@ -206,7 +205,8 @@ def _certificate(table: Table, moves: _Transitions) -> Certificate:
         bits_below_per_word=float(psi.max() - psi[0]),
         bits_below_per_component=delta_below,
         bits_below_per_special=(1 - spread) * c_other - float((special + psi[0] - psi[at]).min()),
-        method=METHOD,
+        method="cost: linear program over the transitions; soundness: bounds of the stack carried "
+        f"to a fixed point, and every stack of at most {n_triangles} triangles",
     )
 
 

@@ -42,7 +42,7 @@ def _figure_1(figure: Any) -> None:
     names = list(found["rows"][0])
     cells = [[_number(row[name]) for name in names] for row in found["rows"]]
     limit = ["limit", "", "", *(_number(found[n]) for n in ("p(a|0)", "p(b|0)", "bits_per_symbol"))]
-    axes.table([*cells, limit], colLabels=[name.replace("_", " ") for name in names], loc="center")
+    axes.table([*cells, limit], colLabels=names, loc="center")
     axes.set_title("Words in which no b follows a b: g_m(i) words of length m from state i")
 
 

@@ -34,6 +34,7 @@ class Table:
     frequencies: (n, 5) uint32, columns C, L, R, S, E; each row sums to 2^16; 0 forbids (only C).
     successors: (n, 5) uint16, the next state, 0 where the symbol is forbidden.
     State 0 is where coding starts and where a special S leads: nothing is known, C is allowed.
+    A table that was loaded is read-only.
     """
 
     name: str

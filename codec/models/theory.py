@@ -126,7 +126,7 @@ def _points() -> Iterator[Point]:
     for loops, limits in LIMITS.items():
         for limit in limits:
             yield _point(f"{loops} loops", loop_automaton(loops, limit, limit))
-    for automaton in growing_automata(4, 14, 14, CHOSEN):
+    for automaton in growing_automata(3, 13, 11, CHOSEN):
         yield _point("best states", automaton)
     for limit in range(5, 11):
         yield _point("redirected", redirected_automaton(2, limit), sound=False)

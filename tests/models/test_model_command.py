@@ -1,0 +1,73 @@
+"""`ebz model`: what it prints and writes, as a shell user sees it."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ebz.cli.model import model
+from ebz.codec.errors import OptionError
+from ebz.codec.models.table import Table
+
+
+def ebz_model(*arguments: str) -> Result:
+    return CliRunner().invoke(model, arguments)
+
+
+def test_list_names_every_built_in_table() -> None:
+    found = json.loads(ebz_model("list", "--json").stdout)
+    assert found["loop-60"]["states"] == 60
+    assert "loop-60" in ebz_model("list").stdout
+
+
+def test_certify_prints_the_bound() -> None:
+    found = json.loads(ebz_model("certify", "loop-60", "--json").stdout)
+    assert found["bits_per_vertex"] == found["bits_per_c"] + found["bits_per_other"]
+    assert "bits_per_vertex" in ebz_model("certify", "loop-60").stdout
+
+
+def test_show_prices_every_symbol() -> None:
+    found = json.loads(ebz_model("show", "loop-60", "--json").stdout)
+    assert list(found["symbols"]) == list("CLRSE")
+    assert found["symbols"]["C"]["forbidden_in_states"] > 0
+
+
+def test_fit_writes_a_table_that_loads(tmp_path: Path) -> None:
+    path = tmp_path / "small.npz"
+    result = ebz_model(
+        "fit", "--loops", "1", "--max-length", "5", "--max-conflict", "3", "-o", str(path), "--json"
+    )
+    assert json.loads(result.stdout)["model"] == "small"
+    assert Table.load(path).name == "small"
+
+
+def test_fit_writes_to_standard_output(tmp_path: Path) -> None:
+    result = ebz_model("fit", "--loops", "1", "--max-length", "5", "-o", "-")
+    assert Table.from_bytes(result.stdout_bytes).name == "fit"
+
+
+def test_nothing_is_overwritten_without_force(tmp_path: Path) -> None:
+    path = tmp_path / "kept"
+    path.write_text("kept")
+    result = ebz_model("fit", "--loops", "1", "-o", str(path))
+    assert isinstance(result.exception, OptionError)
+    assert path.read_text() == "kept"
+    assert ebz_model("fit", "--loops", "1", "-fo", str(path)).exit_code == 0
+
+
+def test_a_malformed_table_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "bad.npz"
+    path.write_bytes(b"bad")
+    result = ebz_model("certify", str(path))
+    assert isinstance(result.exception, OptionError)
+    assert str(result.exception).startswith(f"{path}: ")
+
+
+@pytest.mark.parametrize("number", ["1", "2"])
+def test_figures_have_numbers(number: str) -> None:
+    assert json.loads(ebz_model("figure", number, "--json").stdout)["rows"]
+
+
+def test_a_figure_needs_a_file_or_json() -> None:
+    assert ebz_model("figure", "1").exit_code == 2
