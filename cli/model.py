@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from ebz.codec.errors import OptionError
-
-if TYPE_CHECKING:
-    from ebz.codec.models.table import Table
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one line of JSON.")
 force = click.option("-f", "--force", is_flag=True, help="Overwrite OUTPUT.")
@@ -40,10 +37,14 @@ def model() -> None:
 def list_models(as_json: bool) -> None:
     """List the built-in models with their guaranteed bits per vertex."""
     from ebz.codec.models.certify import certify
-    from ebz.codec.models.table import Table, table_names
+    from ebz.codec.models.load import load
+    from ebz.codec.models.table import table_names
 
-    found = [certify(Table.load(name)) for name in table_names()]
-    rows = {c.model: {"states": c.states, "bits_per_vertex": c.bits_per_vertex} for c in found}
+    found = [certify(load(name)) for name in table_names()]
+    rows = {
+        c.model: {"kind": c.kind, "contexts": c.contexts, "bits_per_vertex": c.bits_per_vertex}
+        for c in found
+    }
     _print(rows, as_json)
 
 
@@ -52,9 +53,10 @@ def list_models(as_json: bool) -> None:
 @as_json
 def show(model: str, as_json: bool) -> None:
     """Show a model: its states, its size, its bound, and what each symbol costs in bits."""
+    from ebz.codec.models.load import load
     from ebz.codec.models.summary import summary
 
-    _print(summary(_load(model)), as_json)
+    _print(summary(load(model)), as_json)
 
 
 @model.command()
@@ -63,8 +65,9 @@ def show(model: str, as_json: bool) -> None:
 def certify(model: str, as_json: bool) -> None:
     """Derive the guarantee of a model from its integers alone, or say why there is none."""
     from ebz.codec.models.certify import certify as derive
+    from ebz.codec.models.load import load
 
-    _print(derive(_load(model)).as_dict(), as_json)
+    _print(derive(load(model)).as_dict(), as_json)
 
 
 @model.command()
@@ -118,12 +121,6 @@ def figure(number: str, output: str | None, force: bool, as_json: bool) -> None:
 
     _refuse_to_overwrite(output, force)
     _write(output, draw(int(number), Path(output).suffix.removeprefix(".")))
-
-
-def _load(name: str) -> Table:
-    from ebz.codec.models.table import Table
-
-    return Table.load(name)
 
 
 def _refuse_to_overwrite(output: str, force: bool) -> None:

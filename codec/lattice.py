@@ -78,7 +78,8 @@ class BoxLattice:
         return _to_integers(offsets / self.step if self.step else np.zeros_like(offsets))
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
-        return (np.array(self.origin) + integers * self.step).astype(dtype)
+        exact: Floats = np.array(self.origin) + integers * self.step
+        return exact.astype(dtype)
 
 
 @dataclass(frozen=True)

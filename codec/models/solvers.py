@@ -82,7 +82,7 @@ def linear_program(
     a_equal, b_equal = equal or (None, None)
     found = linprog(
         objective, A_ub=a_upper, b_ub=b_upper, A_eq=a_equal, b_eq=b_equal, bounds=bounds,
-        method="highs",
+        method="highs-ipm",
     )  # fmt: skip
     return np.asarray(found.x) if found.status == 0 else None
 

@@ -1,21 +1,21 @@
 """Model tables: the frozen integers from which both coders take the probability of each symbol.
 
-A table file is an npz archive; `kind` tells which arrays it holds (here: a finite automaton).
+This kind of table is a finite automaton; stack.py has the one that looks at the decoder's stack.
 """
 
 from __future__ import annotations
 
-import io
-import zipfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import ClassVar, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.errors import OptionError
+from ebz.codec.models.archive import integers, pack, text, unpack
 
 SYMBOLS = "CLRSE"
 C, L, R, S, E = range(5)
@@ -23,8 +23,6 @@ FREQUENCY_BITS = 16
 TOTAL = 1 << FREQUENCY_BITS
 MAX_STATES = 65535
 TABLES = Path(__file__).parent / "tables"
-# No array of a table has more entries: MAX_STATES rows of five.
-MAX_ENTRIES = MAX_STATES * 5
 
 
 @dataclass(eq=False)
@@ -40,7 +38,7 @@ class Table:
     name: str
     frequencies: npt.NDArray[np.uint32]
     successors: npt.NDArray[np.uint16]
-    kind: str = "automaton"
+    kind: ClassVar[str] = "automaton"
 
     def __repr__(self) -> str:
         return f"Table({self.name!r}, {self.kind}, {len(self.frequencies)} rows)"
@@ -53,8 +51,6 @@ class Table:
 
     def check(self) -> None:
         """Raise OptionError, naming the row and column, unless a coder can use the table."""
-        if self.kind != "automaton":
-            raise OptionError(f"model table: unknown kind {self.kind!r}")
         n = len(self.frequencies)
         if self.frequencies.shape != (n, 5) or self.successors.shape != (n, 5):
             raise OptionError("model table: frequencies and successors are not both (n, 5)")
@@ -71,41 +67,30 @@ class Table:
 
         Raises OptionError where there is neither, or where the table is malformed.
         """
-        path = table_path(name_or_path)
-        try:
-            return cls.from_bytes(path.read_bytes())
-        except OSError as error:
-            raise OptionError(f"cannot read it: {error.strerror}", source=str(path)) from None
-        except OptionError as error:
-            raise OptionError(error.message, source=str(path)) from None
+        return read(name_or_path, cls.from_bytes)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Table:
         """The checked table of a file's content; raises OptionError where it is malformed."""
-        arrays = _arrays(data)
-        missing = {"name", "kind", "frequencies", "successors"} - arrays.keys()
-        if missing:
-            raise OptionError(f"model table: no array {min(missing)!r}")
+        arrays = unpack(data)
+        if (kind := text(arrays, "kind")) != "automaton":
+            raise OptionError(f"model table: kind {kind!r} is not 'automaton'")
         table = cls(
-            name=str(arrays["name"]),
-            frequencies=_integers(arrays, "frequencies", np.uint32),
-            successors=_integers(arrays, "successors", np.uint16),
-            kind=str(arrays["kind"]),
+            name=text(arrays, "name"),
+            frequencies=integers(arrays, "frequencies", np.uint32),
+            successors=integers(arrays, "successors", np.uint16),
         )
         table.check()
         return table
 
     def to_bytes(self) -> bytes:
         """The content of the table's file; the same table gives the same bytes."""
-        buffer = io.BytesIO()
-        np.savez_compressed(
-            buffer,
+        return pack(
             name=np.array(self.name),
             kind=np.array(self.kind),
-            frequencies=self.frequencies.astype(np.uint32),
+            frequencies=self.frequencies.astype(np.uint16),
             successors=self.successors.astype(np.uint16),
         )
-        return buffer.getvalue()
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the checked table to `path`."""
@@ -130,14 +115,33 @@ def table_path(name_or_path: str | PathLike[str]) -> Path:
     return path
 
 
+T = TypeVar("T")
+
+
+def read(name_or_path: str | PathLike[str], parse: Callable[[bytes], T]) -> T:
+    """What `parse` makes of a built-in table or a file; its errors name the file."""
+    path = table_path(name_or_path)
+    try:
+        return parse(path.read_bytes())
+    except OSError as error:
+        raise OptionError(f"cannot read it: {error.strerror}", source=str(path)) from None
+    except OptionError as error:
+        raise OptionError(error.message, source=str(path)) from None
+
+
 def check_frequencies(frequencies: npt.NDArray[np.uint32]) -> None:
     """Raise OptionError unless each row sums to 2^16 and only C is ever forbidden."""
-    sums = frequencies.sum(axis=1, dtype=np.uint64)
-    if (wrong := np.flatnonzero(sums != TOTAL)).size:
-        raise OptionError(f"model table: row {wrong[0]} sums to {sums[wrong[0]]}, not {TOTAL}")
+    check_row_sums(frequencies)
     if (zeros := np.argwhere(frequencies[:, L:] == 0)).size:
         row, column = zeros[0]
         raise OptionError(f"model table: row {row} forbids {SYMBOLS[L + column]}; only C may be")
+
+
+def check_row_sums(frequencies: npt.NDArray[np.uint32]) -> None:
+    """Raise OptionError unless each row sums to 2^16."""
+    sums = frequencies.sum(axis=1, dtype=np.uint64)
+    if (wrong := np.flatnonzero(sums != TOTAL)).size:
+        raise OptionError(f"model table: row {wrong[0]} sums to {sums[wrong[0]]}, not {TOTAL}")
 
 
 def _check_successors(successors: npt.NDArray[np.uint16], allowed: npt.NDArray[np.bool_]) -> None:
@@ -149,41 +153,3 @@ def _check_successors(successors: npt.NDArray[np.uint16], allowed: npt.NDArray[n
             f"model table: row {row}, {SYMBOLS[column]}: successor {successors[row, column]} "
             + (f"of {n} states" if allowed[row, column] else "of a forbidden symbol")
         )
-
-
-def _integers(arrays: dict[str, npt.NDArray[Any]], name: str, dtype: type) -> npt.NDArray[Any]:
-    values = arrays[name]
-    if values.dtype.kind not in "iu":
-        raise OptionError(f"model table: array {name!r} is not of integers")
-    if values.size and (values.min() < 0 or values.max() > np.iinfo(dtype).max):
-        raise OptionError(f"model table: array {name!r} does not fit {np.dtype(dtype).name}")
-    return np.ascontiguousarray(values, dtype)
-
-
-def _arrays(data: bytes) -> dict[str, npt.NDArray[Any]]:
-    """Every array of an npz; the sizes that it declares are checked before any is allocated."""
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            return {
-                member.filename.removesuffix(".npy"): _array(archive, member)
-                for member in archive.infolist()[:16]
-            }
-    except OptionError:
-        raise
-    except (zipfile.BadZipFile, ValueError, EOFError, NotImplementedError, RuntimeError) as error:
-        raise OptionError(f"model table: not an npz file ({error})") from None
-    except Exception as error:  # zlib.error, struct.error and what else a damaged archive raises
-        raise OptionError(f"model table: damaged npz file ({error})") from None
-
-
-def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> npt.NDArray[Any]:
-    with archive.open(member) as stream:
-        if np.lib.format.read_magic(stream) != (1, 0):
-            raise OptionError(f"model table: {member.filename} is not of npy version 1.0")
-        shape, fortran, dtype = np.lib.format.read_array_header_1_0(stream)
-        n = int(np.prod([int(extent) for extent in shape], dtype=object))
-        if dtype.kind not in "iuU" or dtype.itemsize > 1024 or not 0 <= n <= MAX_ENTRIES:
-            raise OptionError(f"model table: {member.filename} declares {shape} of {dtype}")
-        content = stream.read(n * dtype.itemsize)
-    array = np.frombuffer(content, dtype, n)
-    return array.reshape(shape, order="F" if fortran else "C")

@@ -3,8 +3,9 @@
 import ctypes
 from typing import Any
 
-import ebz
 import numpy as np
+
+import ebz
 
 IMPORT, EXPORT, MG1, LEVEL = 0x0101, 0x0102, 0x0202, 9
 VERTEX_COUNT, TRIANGLE_COUNT, INDICES, VERTICES = 0x0301, 0x0302, 0x0601, 0x0602

@@ -12,8 +12,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import ebz
 import numpy as np
+
+import ebz
 
 
 @dataclass(frozen=True)

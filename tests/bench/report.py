@@ -14,7 +14,9 @@ def table(rows: list[Row]) -> str:
     for bits in dict.fromkeys(row["bits"] for row in rows):
         chosen = [row for row in rows if row["bits"] == bits]
         title = f"{bits} bits" if bits else "lossless"
-        parts.append(f"### {title}, {len({row['mesh'] for row in chosen})} meshes\n\n{_grid(chosen)}")
+        parts.append(
+            f"### {title}, {len({row['mesh'] for row in chosen})} meshes\n\n{_grid(chosen)}"
+        )
     return "\n\n".join(parts)
 
 

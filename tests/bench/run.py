@@ -2,9 +2,9 @@
 
     python -m tests.bench.run [FOLDER] [--bits 11,14,16,0] [--levels 1,3,6,9] [--json FILE]
 
-FOLDER holds mesh files; without it, generated meshes and the project's samples are used.  Vertices that
-no face uses are dropped first, for every codec.  Sizes are exact.  Times are medians of CPU seconds
-on one thread; machines differ, so what counts is the ratio to Draco level 10 in the same run.
+FOLDER holds mesh files; without it, generated meshes and the project's samples are used.  Vertices
+that no face uses are dropped first, for every codec.  Sizes are exact.  Times are medians of CPU
+seconds on one thread; machines differ: what counts is the ratio to Draco level 10 in the same run.
 """
 
 import argparse
@@ -17,10 +17,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import ebz
 import numpy as np
-from ebz.codec import sample
 
+import ebz
+from ebz.codec import sample
 from tests.bench import peers, report
 
 SAMPLES = Path(__file__).parents[2] / "samples"
@@ -41,12 +41,16 @@ def main() -> int:
         print(f"left out: {line}", file=sys.stderr)
     print(report.table(rows))
     if options.json:
-        Path(options.json).write_text(json.dumps({"about": _about(), "rows": rows}, indent=1) + "\n")
+        Path(options.json).write_text(
+            json.dumps({"about": _about(), "rows": rows}, indent=1) + "\n"
+        )
     return 0
 
 
 def _parse() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("--bits", type=_numbers, default=[11, 14, 16, LOSSLESS], help="0: lossless")
     parser.add_argument("--levels", type=_numbers, default=[1, 3, 6, 9])
