@@ -94,8 +94,8 @@ def _compress_one(
     import ebz
 
     summary = Summary(manner)
-    mesh = ebz.read(source.mesh_source(), **read_options)
     progress = Progress(source.name, quiet=manner.quiet)
+    mesh = ebz.read(source.mesh_source(), **read_options)
     try:
         data = ebz.compress(mesh, progress=progress, **coding)
     finally:

@@ -1,6 +1,7 @@
 """The group of all commands, each imported only when it is called."""
 
 import importlib
+import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -29,7 +30,8 @@ Examples:
 
 \b
 Exit status: 0 fine, 1 an error, 2 a difference found by verify.
-Completion for bash, zsh or fish:  eval "$(_EBZ_COMPLETE=bash_source ebz)"
+Completion of options and files for bash; zsh_source and fish_source work too:
+  eval "$(_EBZ_COMPLETE=bash_source ebz)"
 """
 
 
@@ -73,13 +75,15 @@ def run(arguments: Sequence[str]) -> int:
     """Runs one command line and returns the exit status; every error becomes a line on stderr."""
     try:
         result: Any = ebz.main(list(arguments), prog_name="ebz", standalone_mode=False)
+        if sys.stdout:
+            sys.stdout.flush()
     except click.UsageError as error:
         messages.say(_usage(error))
         return 1
     except (KeyboardInterrupt, click.Abort):
         return messages.interrupted()
     except OSError as error:
-        # Help and version texts are all that is printed outside of `jobs.for_each`.
+        # Outside of `jobs.for_each`, only standard output can fail.
         messages.report(error, messages.STDOUT)
         messages.discard_stdout()
         return 1

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ebz.cli import group, jobs, messages, options, table
+from ebz.cli.compress import compress
 
 
 @pytest.mark.parametrize(
@@ -47,6 +48,11 @@ def test_commands_are_listed_as_they_describe_themselves():
         command = group.ebz.get_command(click.Context(group.ebz), name)
         assert command is not None and command.name == name
     assert group.ebz.get_command(click.Context(group.ebz), "main") is None
+
+
+def test_the_last_level_counts():
+    for arguments, level in (([], None), (["-1"], 1), (["-19"], 9), (["-9", "a", "-2"], 2)):
+        assert compress.make_context("compress", arguments).params["level"] == level
 
 
 @pytest.mark.parametrize(
