@@ -9,12 +9,13 @@ from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
 from ebz.codec.lattice import MAX_BITS
 from ebz.codec.mesh import Mesh
-from ebz.codec.models.table import Table, table_names
+from ebz.codec.models.load import AnyTable, load
+from ebz.codec.models.table import table_names
 from ebz.codec.pipeline import Progress
 from ebz.formats import container
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
-DEFAULT_MODEL = "loop-60"
+DEFAULT_MODEL = "stack"
 LEVELS = range(1, 10)
 
 BytesLike = bytes | bytearray | memoryview
@@ -26,7 +27,7 @@ def compress(
     bits: int | None = None,
     max_error: float | None = None,
     level: int = 6,
-    model: str | os.PathLike[str] | Table | None = None,
+    model: str | os.PathLike[str] | AnyTable | None = None,
     embed_model: bool = False,
     progress: Progress | None = None,
 ) -> bytes:
@@ -66,13 +67,13 @@ def parse(data: BytesLike, memory_limit: int) -> EncodedMesh:
     return container.read(memoryview(data).cast("B"), memory_limit=memory_limit)
 
 
-def load_model(model: str | os.PathLike[str] | Table | None) -> Table:
+def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
     """The table that a `model` option means; raises OptionError where there is none."""
-    return model if isinstance(model, Table) else Table.load(model or DEFAULT_MODEL)
+    return model if isinstance(model, AnyTable) else load(model or DEFAULT_MODEL)
 
 
 def _is_file(model: Any) -> bool:
-    return model is not None and not isinstance(model, Table) and str(model) not in table_names()
+    return model is not None and not isinstance(model, AnyTable) and str(model) not in table_names()
 
 
 def _check_options(bits: int | None, max_error: float | None, level: int) -> None:

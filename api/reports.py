@@ -3,7 +3,7 @@
 from ebz.codec import pipeline, statistics
 from ebz.codec.compare import Verification, compare
 from ebz.codec.mesh import Mesh
-from ebz.codec.models.certify import certify
+from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.statistics import Stats
 from ebz.coding import BytesLike, compress, parse
 from ebz.formats import container
@@ -19,7 +19,7 @@ def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -
     view = memoryview(content).cast("B")
     encoded = parse(view, memory_limit)
     decoded = pipeline.decode(encoded)
-    guarantee = certify(encoded.table).bits_per_vertex
+    guarantee = guaranteed_bits(encoded.table)
     return statistics.describe(
         encoded, decoded.word, decoded.surface, container.sizes(view), guarantee
     )

@@ -14,6 +14,7 @@ from ebz.codec import _kernels
 from ebz.codec.errors import CorruptError, MeshError
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
+from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import Table
 
 Int32s = npt.NDArray[np.int32]
@@ -88,7 +89,7 @@ class OutputOrder:
 
 
 def encode(
-    faces: npt.NDArray[Any], n_vertices: int, table: Table
+    faces: npt.NDArray[Any], n_vertices: int, table: AnyTable
 ) -> tuple[EncodedWord, Surface, OutputOrder]:
     """The word of any list of triangles; linear time but for sorting what is not manifold.
 
@@ -102,7 +103,7 @@ def encode(
         counts,
         symbols,
         specials,
-        _kernels.encode_symbols(symbols, specials, *_arrays(table)),
+        _kernels.encode_symbols(symbols, specials, _model(table)),
         _encode_specials(specials),
         _encode_gluing(copies, surface.vertex_of_piece),
     )
@@ -110,7 +111,7 @@ def encode(
 
 
 def decode(
-    word: bytes, special_integers: bytes, gluing: bytes, counts: WordCounts, table: Table
+    word: bytes, special_integers: bytes, gluing: bytes, counts: WordCounts, table: AnyTable
 ) -> tuple[EncodedWord, Surface]:
     """The symbols and the surface of an encoded word; raises CorruptError where they contradict."""
     specials = _decode_specials(special_integers, counts)
@@ -120,7 +121,7 @@ def decode(
         counts.n_closed,
         counts.n_single,
         specials,
-        *_arrays(table),
+        _model(table),
     )
     vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
     encoded = EncodedWord(counts, symbols, specials, word, special_integers, gluing)
@@ -133,8 +134,14 @@ def traverse(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Surface, OutputO
     return surface, order
 
 
-def _arrays(table: Table) -> tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint16]]:
-    return table.frequencies.reshape(-1), table.successors.reshape(-1)
+def _model(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
+    frequencies = table.frequencies.reshape(-1)
+    if isinstance(table, Table):
+        return _kernels.automaton(frequencies, table.successors.reshape(-1))
+    top, step = table.top, table.step
+    return _kernels.stack(
+        frequencies, top.reshape(-1), top.shape[1], step.reshape(-1), step.shape[1], table.bottom
+    )
 
 
 def _traverse(

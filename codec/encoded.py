@@ -8,7 +8,7 @@ import numpy as np
 
 from ebz.codec.connectivity import WordCounts
 from ebz.codec.lattice import Lattice
-from ebz.codec.models.table import Table
+from ebz.codec.models.load import AnyTable
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class EncodedMesh:
     n_vertices: int
     n_exceptions: int
     lattice: Lattice
-    table: Table
+    table: AnyTable
     streams: Streams
     vertex_attributes: list[EncodedArray] = field(default_factory=list)
     face_attributes: list[EncodedArray] = field(default_factory=list)

@@ -53,7 +53,9 @@ class DecimalLattice:
     kind = "decimal"
 
     def integers(self, coordinates: Floats) -> Integers:
-        return _to_integers(coordinates.astype(np.float64) * 10.0**self.digits)
+        # NaN and what overflows become exceptions.
+        with np.errstate(invalid="ignore", over="ignore"):
+            return _to_integers(coordinates.astype(np.float64) * 10.0**self.digits)
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
         return (integers / 10.0**self.digits).astype(dtype)

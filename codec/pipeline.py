@@ -15,7 +15,7 @@ from ebz.codec.errors import CorruptError
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.mesh import Mesh, face_dtype
-from ebz.codec.models.table import Table
+from ebz.codec.models.load import AnyTable
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
@@ -35,7 +35,7 @@ class Decoded:
 
 def encode(
     mesh: Mesh,
-    table: Table,
+    table: AnyTable,
     *,
     bits: int | None = None,
     max_error: float | None = None,

@@ -6,7 +6,7 @@ import numpy as np
 
 from ebz.codec.connectivity import WordCounts
 from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
-from ebz.codec.errors import CorruptError, OptionError, VersionError
+from ebz.codec.errors import CorruptError, VersionError
 from ebz.codec.lattice import (
     MAX_BITS,
     MAX_DIGITS,
@@ -17,8 +17,7 @@ from ebz.codec.lattice import (
     StepLattice,
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
-from ebz.codec.models.table import Table
-from ebz.formats import chunks, layout
+from ebz.formats import chunks, layout, tables
 from ebz.formats.chunks import Chunk
 from ebz.formats.limits import check_declared_sizes
 
@@ -32,7 +31,7 @@ MAX_COUNT = 2**63
 
 def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
     """The file: chunks that hold nothing are left out, but for the header and the end."""
-    model = _model_id(encoded.table)
+    model = tables.number_of(encoded.table)
     inline = embed_model or model == layout.INLINE_MODEL
     streams = encoded.streams
     parts = [
@@ -40,7 +39,7 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
         chunks.write(layout.HEADER, _header(encoded, layout.INLINE_MODEL if inline else model)),
     ]
     optional = [
-        (layout.MODEL, _table(encoded.table) if inline else b""),
+        (layout.MODEL, tables.write(encoded.table) if inline else b""),
         (layout.WORD, streams.word if encoded.counts.n_symbols else b""),
         (layout.SPECIALS, streams.special_integers),
         (layout.GLUING, streams.gluing),
@@ -108,7 +107,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
         lattice=_parse_lattice(header),
-        table=_parse_model(header.model, found.get(layout.MODEL)),
+        table=tables.read(header.model, found.get(layout.MODEL)),
         streams=Streams(
             word=payload(layout.WORD),
             special_integers=payload(layout.SPECIALS),
@@ -179,52 +178,6 @@ def _parse_lattice(header: Any) -> Lattice:
             raise CorruptError(f"header: a maximal error of {parameters.max_error}")
         return StepLattice(parameters.max_error)
     return FloatLattice()
-
-
-def _model_id(table: Table) -> int:
-    """The number of a built-in table, 0 where the table is not one of them."""
-    for number, name in layout.MODELS.items():
-        if table.name == name and table.same_as(Table.load(name)):
-            return number
-    return layout.INLINE_MODEL
-
-
-def _parse_model(number: int, chunk: Chunk | None) -> Table:
-    if number != layout.INLINE_MODEL:
-        if number not in layout.MODELS:
-            raise VersionError(f"header: unknown model {number}")
-        return Table.load(layout.MODELS[number])
-    if chunk is None:
-        raise CorruptError("header: the file's own model is missing")
-    return _parse_table(chunk)
-
-
-def _table(table: Table) -> bytes:
-    return layout.build(
-        layout.Table,
-        {
-            "name": table.name.encode("utf-8", "surrogatepass"),
-            "n_states": len(table.frequencies),
-            "frequencies": table.frequencies[:, 1:].tolist(),
-            "successors": table.successors.tolist(),
-        },
-    )
-
-
-def _parse_table(chunk: Chunk) -> Table:
-    parsed = layout.parse(layout.Table, chunk.payload, chunk.where)
-    others = np.array(parsed.frequencies, np.uint32).reshape(-1, 4)
-    first = np.uint32(65536) - others.sum(axis=1, dtype=np.uint32)
-    table = Table(
-        name=parsed.name.decode("utf-8", "surrogatepass"),
-        frequencies=np.column_stack([first, others]),
-        successors=np.array(parsed.successors, np.uint16).reshape(-1, 5),
-    )
-    try:
-        table.check()
-    except OptionError as error:
-        raise CorruptError(f"{chunk.where}: {error.message}") from None
-    return table
 
 
 def _exceptions(streams: Streams) -> bytes:

@@ -85,14 +85,28 @@ Header = Struct(
 
 # Model 0 is the table of the file's model chunk; the others are built in and never change.
 INLINE_MODEL = 0
-MODELS = {1: "loop-60"}
+MODELS = {1: "loop-60", 2: "stack"}
 
-Table = Struct(
+AUTOMATON, STACK = range(2)
+Frequencies = Array(this.n_rows, Array(4, Int16ul))  # of C, L, R, S; E has what is left of 2^16
+
+Automaton = Struct(
     "name" / Prefixed(VarInt, GreedyBytes),
-    "n_states" / VarInt,
-    "frequencies" / Array(this.n_states, Array(4, Int16ul)),  # of L, R, S, E; C has what is left
+    "n_rows" / VarInt,
+    "frequencies" / Frequencies,
     "successors"
-    / Array(this.n_states, Array(5, IfThenElse(this._root.n_states <= 256, Int8ul, Int16ul))),
+    / Array(this.n_rows, Array(5, IfThenElse(this._root.n_rows <= 256, Int8ul, Int16ul))),
+)
+
+Stack = Struct(
+    "name" / Prefixed(VarInt, GreedyBytes),
+    "n_rows" / VarInt,
+    "frequencies" / Frequencies,
+    "n_conflicts" / Byte,
+    "top" / Prefixed(VarInt, GreedyBytes),
+    "n_lengths" / Byte,
+    "step" / Prefixed(VarInt, GreedyBytes),
+    "bottom" / Byte,
 )
 
 Exceptions = Struct("rows" / Prefixed(VarInt, GreedyBytes), "exact" / GreedyBytes)

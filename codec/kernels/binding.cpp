@@ -73,28 +73,42 @@ encode_connectivity(const Input<int32_t>& faces, int32_t n_vertices) {
 
 nb::bytes to_bytes(const std::vector<uint8_t>& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
 
-nb::bytes encode_symbols(const Input<uint8_t>& symbols, const Input<int64_t>& specials,
-                         const Input<uint32_t>& frequencies, const Input<uint16_t>& successors) {
-    return to_bytes(without_gil([&] {
-        return ebz::encode_symbols(view(symbols), specials_from(specials),
-                                   ebz::AutomatonModel(view(frequencies), view(successors)));
-    }));
+ebz::AutomatonModel automaton(const Input<uint32_t>& frequencies, const Input<uint16_t>& successors) {
+    return {view(frequencies), view(successors)};
 }
 
-std::tuple<Array<uint8_t>, Array<int32_t>, Array<int32_t>, int32_t> decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
-                              int64_t n_single, const Input<int64_t>& specials,
-                              const Input<uint32_t>& frequencies, const Input<uint16_t>& successors) {
+ebz::StackModel stack(const Input<uint32_t>& frequencies, const Input<uint8_t>& top, uint32_t n_conflicts,
+                      const Input<uint8_t>& step, uint32_t n_lengths, uint8_t bottom) {
+    return {view(frequencies), view(top), n_conflicts, view(step), n_lengths, bottom};
+}
+
+template <class Model>
+nb::bytes encode_symbols(const Input<uint8_t>& symbols, const Input<int64_t>& specials, const Model& model) {
+    return to_bytes(
+        without_gil([&] { return ebz::encode_symbols(view(symbols), specials_from(specials), model); }));
+}
+
+using Decoded = std::tuple<Array<uint8_t>, Array<int32_t>, Array<int32_t>, int32_t>;
+
+template <class Model>
+Decoded decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
+                            int64_t n_single, const Input<int64_t>& specials, const Model& model) {
     require_addressable(3 * static_cast<size_t>(n_symbols + n_closed));
     const ebz::WordHeader header{static_cast<ebz::Index>(n_symbols), static_cast<ebz::Index>(n_closed),
                                  static_cast<ebz::Index>(n_single)};
-    ebz::DecodedConnectivity decoded = without_gil([&] {
-        return ebz::decode_connectivity(view(bytes), header, specials_from(specials),
-                                        ebz::AutomatonModel(view(frequencies), view(successors)));
-    });
-    return std::make_tuple(to_numpy(std::move(decoded.symbols)),
-                          to_numpy(std::move(decoded.connectivity.opposite)),
-                          to_numpy(std::move(decoded.connectivity.fans.vertex)),
-                          decoded.connectivity.fans.n_vertices);
+    ebz::DecodedConnectivity decoded = without_gil(
+        [&] { return ebz::decode_connectivity(view(bytes), header, specials_from(specials), model); });
+    return {to_numpy(std::move(decoded.symbols)), to_numpy(std::move(decoded.connectivity.opposite)),
+            to_numpy(std::move(decoded.connectivity.fans.vertex)), decoded.connectivity.fans.n_vertices};
+}
+
+template <class Model>
+void bind_word_coder(nb::module_& m) {
+    m.def("encode_symbols", &encode_symbols<Model>, "symbols"_a, "specials"_a, "model"_a,
+          "The word in reverse order under a model.");
+    m.def("decode_connectivity", &decode_connectivity<Model>, "data"_a, "n_symbols"_a, "n_closed"_a,
+          "n_single"_a, "specials"_a, "model"_a,
+          "symbols, opposite, piece_vertex, n_piece_vertices of an encoded word.");
 }
 
 nb::bytes encode_positions(const Input<int32_t>& opposite, const Input<int32_t>& vertex, int32_t n_vertices,
@@ -167,11 +181,14 @@ NB_MODULE(_kernels, m) {
     m.def("encode_connectivity", &encode_connectivity, "faces"_a, "n_vertices"_a,
           "symbols, specials (position, meets), n_closed, n_single, gates, opposite, piece_vertex, "
           "source_vertex of 3m vertex indices.");
-    m.def("encode_symbols", &encode_symbols, "symbols"_a, "specials"_a, "frequencies"_a, "successors"_a,
-          "The word in reverse order under an automaton.");
-    m.def("decode_connectivity", &decode_connectivity, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
-          "specials"_a, "frequencies"_a, "successors"_a,
-          "symbols, opposite, piece_vertex, n_piece_vertices of an encoded word.");
+    nb::class_<ebz::AutomatonModel>(m, "AutomatonModel", "Frozen frequencies per state.");
+    nb::class_<ebz::StackModel>(m, "StackModel", "Frozen frequencies per class of stacks.");
+    m.def("automaton", &automaton, "frequencies"_a, "successors"_a,
+          "A model from checked tables, flattened: 5 entries per state.");
+    m.def("stack", &stack, "frequencies"_a, "top"_a, "n_conflicts"_a, "step"_a, "n_lengths"_a, "bottom"_a,
+          "A model from checked tables, flattened: 5 frequencies per row.");
+    bind_word_coder<ebz::AutomatonModel>(m);
+    bind_word_coder<ebz::StackModel>(m);
     m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
           "space"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,

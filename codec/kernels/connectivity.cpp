@@ -60,23 +60,25 @@ EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_ve
     return encoded;
 }
 
+template <class Model>
 std::vector<uint8_t> encode_symbols(std::span<const uint8_t> symbols, std::span<const SpecialS> specials,
-                                    AutomatonModel model) {
+                                    Model model) {
     RangeEncoder coder;
     LoopStack loops;
     SpecialsReversed reversed(specials);
     for (int64_t position = static_cast<int64_t>(symbols.size()) - 1; position >= 0; --position) {
         const Symbol symbol = static_cast<Symbol>(symbols[position]);
         const bool special = reversed.take(position) != none;
-        model.shares(loops).encode(coder, symbol);
+        model.shares().encode(coder, symbol);
         loops.apply(symbol, special);
         model.advance(symbol, special);
     }
     return coder.finish();
 }
 
+template <class Model>
 DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const WordHeader& header,
-                                        std::span<const SpecialS> specials, AutomatonModel model) {
+                                        std::span<const SpecialS> specials, Model model) {
     DecodedConnectivity decoded;
     decoded.symbols.resize(header.n_symbols);
     RangeDecoder coder(bytes);
@@ -84,7 +86,7 @@ DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const Wo
     SpecialsReversed reversed(specials);
     Reverse reverse(header.n_symbols, header.n_closed, header.n_single);
     for (Index position = header.n_symbols - 1; position >= 0; --position) {
-        const Symbol symbol = model.shares(loops).decode(coder);
+        const Symbol symbol = model.shares().decode(coder);
         const int64_t meets = reversed.take(position);
         if (meets != none && symbol != S) throw Corrupt("a symbol other than S is listed as special");
         loops.apply(symbol, meets != none);
@@ -97,5 +99,12 @@ DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const Wo
     decoded.connectivity.fans = number_fans(decoded.connectivity.opposite);
     return decoded;
 }
+
+template std::vector<uint8_t> encode_symbols(std::span<const uint8_t>, std::span<const SpecialS>, AutomatonModel);
+template std::vector<uint8_t> encode_symbols(std::span<const uint8_t>, std::span<const SpecialS>, StackModel);
+template DecodedConnectivity decode_connectivity(std::span<const uint8_t>, const WordHeader&,
+                                                 std::span<const SpecialS>, AutomatonModel);
+template DecodedConnectivity decode_connectivity(std::span<const uint8_t>, const WordHeader&,
+                                                 std::span<const SpecialS>, StackModel);
 
 }  // namespace ebz

@@ -25,9 +25,10 @@ struct EncodedConnectivity {
 // faces: 3m indices in [0, n_vertices).
 EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_vertices);
 
-// The word in reverse order under a model; throws Corrupt where the model forbids a symbol.
+// The word in reverse order under a model of word_models.hpp; throws Corrupt where it forbids a symbol.
+template <class Model>
 std::vector<uint8_t> encode_symbols(std::span<const uint8_t> symbols, std::span<const SpecialS> specials,
-                                    AutomatonModel model);
+                                    Model model);
 
 struct WordHeader {
     Index n_symbols, n_closed, n_single;
@@ -38,7 +39,8 @@ struct DecodedConnectivity {
     Connectivity connectivity;
 };
 
+template <class Model>
 DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const WordHeader& header,
-                                        std::span<const SpecialS> specials, AutomatonModel model);
+                                        std::span<const SpecialS> specials, Model model);
 
 }  // namespace ebz

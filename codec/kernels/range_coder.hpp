@@ -6,6 +6,7 @@
 // than 2^-23 bits a symbol: what a model promises is what its stream takes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -106,6 +107,16 @@ public:
 
     explicit RangeDecoder(std::span<const uint8_t> bytes) : bytes_(bytes) {
         for (int i = 0; i < interval_bits / 8; ++i) code_ = (code_ << 8) | next();
+    }
+
+    // How many of the ascending `starts` of [0, 2^16) the next symbol is not below; consume() must
+    // follow.  Products instead of peek's quotient.
+    template <size_t n>
+    int count_below(const std::array<uint16_t, n>& starts) {
+        unit_ = range_ >> probability_bits;
+        int count = 0;
+        for (const uint16_t start : starts) count += code_ >= unit_ * start;
+        return count;
     }
 
     // The position in [0, 2^total_bits) of the next symbol; consume() must follow.

@@ -1,4 +1,4 @@
-"""Writes the tables that ship: `python -m ebz.codec.models.build [FOLDER]`."""
+"""Writes the tables that ship: `python -m ebz.codec.models.build [FOLDER]`; needs clarabel."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from ebz.codec.models.fit import fit
+from ebz.codec.models.fit_stack import fit_stack
 from ebz.codec.models.table import TABLES, Table
 
 
@@ -16,7 +17,7 @@ def loop_60() -> Table:
 
 def main(folder: Path) -> None:
     """Write every table that ships into `folder`."""
-    for table in (loop_60(),):
+    for table in (loop_60(), fit_stack()):
         table.save(folder / f"{table.name}.npz")
 
 

@@ -9,8 +9,10 @@ from ebz.codec.models.archive import text, unpack
 from ebz.codec.models.stack import StackTable
 from ebz.codec.models.table import Table, read
 
+AnyTable = Table | StackTable
 
-def load(name_or_path: str | PathLike[str]) -> Table | StackTable:
+
+def load(name_or_path: str | PathLike[str]) -> AnyTable:
     """The built-in table of that name, or the table in that file.
 
     Raises OptionError where there is neither, or where the table is malformed.
@@ -18,7 +20,7 @@ def load(name_or_path: str | PathLike[str]) -> Table | StackTable:
     return read(name_or_path, from_bytes)
 
 
-def from_bytes(data: bytes) -> Table | StackTable:
+def from_bytes(data: bytes) -> AnyTable:
     """The checked table of a file's content; raises OptionError where it is malformed."""
     kind = text(unpack(data), "kind")
     if kind == Table.kind:

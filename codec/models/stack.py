@@ -88,6 +88,18 @@ class StackTable:
         """How many rows each class has."""
         return len(self.frequencies) // self.n_classes
 
+    def same_as(self, other: object) -> bool:
+        """Whether a coder would use both alike."""
+        return isinstance(other, StackTable) and all(
+            np.array_equal(mine, theirs)
+            for mine, theirs in (
+                (self.frequencies, other.frequencies),
+                (self.top, other.top),
+                (self.step, other.step),
+                (self.bottom, other.bottom),
+            )
+        )
+
     def row(self, loop: Loop) -> int:
         """The row of the next symbol when `loop` is on top."""
         length, conflict, below = loop

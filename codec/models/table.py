@@ -43,10 +43,12 @@ class Table:
     def __repr__(self) -> str:
         return f"Table({self.name!r}, {self.kind}, {len(self.frequencies)} rows)"
 
-    def same_as(self, other: Table) -> bool:
+    def same_as(self, other: object) -> bool:
         """Whether a coder would use both alike."""
-        return np.array_equal(self.frequencies, other.frequencies) and np.array_equal(
-            self.successors, other.successors
+        return (
+            isinstance(other, Table)
+            and np.array_equal(self.frequencies, other.frequencies)
+            and np.array_equal(self.successors, other.successors)
         )
 
     def check(self) -> None:

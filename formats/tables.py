@@ -1,0 +1,81 @@
+"""Model tables <-> the model chunk; built-in tables are known by number."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec.errors import CorruptError, OptionError, VersionError
+from ebz.codec.models.load import AnyTable, load
+from ebz.codec.models.stack import StackTable
+from ebz.codec.models.table import TOTAL, Table
+from ebz.formats import layout
+from ebz.formats.chunks import Chunk
+
+
+def number_of(table: AnyTable) -> int:
+    """The number of a built-in table, INLINE_MODEL where the table is none of them."""
+    for number, name in layout.MODELS.items():
+        if table.name == name and table.same_as(load(name)):
+            return number
+    return layout.INLINE_MODEL
+
+
+def write(table: AnyTable) -> bytes:
+    """The payload of a model chunk."""
+    common = {
+        "name": table.name.encode("utf-8", "surrogatepass"),
+        "n_rows": len(table.frequencies),
+        "frequencies": table.frequencies[:, :-1].tolist(),
+    }
+    if isinstance(table, Table):
+        successors = {"successors": table.successors.tolist()}
+        return bytes([layout.AUTOMATON]) + layout.build(layout.Automaton, common | successors)
+    classes = {
+        "n_conflicts": table.top.shape[1],
+        "top": table.top.tobytes(),
+        "n_lengths": table.step.shape[1],
+        "step": table.step.tobytes(),
+        "bottom": table.bottom,
+    }
+    return bytes([layout.STACK]) + layout.build(layout.Stack, common | classes)
+
+
+def read(number: int, chunk: Chunk | None) -> AnyTable:
+    """The table that a header's number means; raises CorruptError where the chunk is malformed."""
+    if number != layout.INLINE_MODEL:
+        if number not in layout.MODELS:
+            raise VersionError(f"header: unknown model {number}")
+        return load(layout.MODELS[number])
+    if chunk is None:
+        raise CorruptError("header: the file's own model is missing")
+    try:
+        table = _parse(chunk)
+        table.check()
+    except (OptionError, ValueError) as error:
+        raise CorruptError(f"{chunk.where}: {error}") from None
+    return table
+
+
+def _parse(chunk: Chunk) -> AnyTable:
+    kind, body = chunk.payload[:1], chunk.payload[1:]
+    if kind == bytes([layout.AUTOMATON]):
+        parsed = layout.parse(layout.Automaton, body, chunk.where)
+        successors = np.array(parsed.successors, np.uint16).reshape(-1, 5)
+        return Table(_name(parsed), _frequencies(parsed), successors)
+    if kind == bytes([layout.STACK]):
+        parsed = layout.parse(layout.Stack, body, chunk.where)
+        top = np.frombuffer(parsed.top, np.uint8).reshape(-1, parsed.n_conflicts)
+        step = np.frombuffer(parsed.step, np.uint8).reshape(-1, parsed.n_lengths)
+        return StackTable(_name(parsed), _frequencies(parsed), top, step, parsed.bottom)
+    raise VersionError(f"{chunk.where}: unknown kind of model")
+
+
+def _name(parsed: Any) -> str:
+    return bytes(parsed.name).decode("utf-8", "surrogatepass")
+
+
+def _frequencies(parsed: Any) -> npt.NDArray[np.uint32]:
+    """All five columns; a sum past 2^16 wraps, which checking the table finds."""
+    stored = np.array(parsed.frequencies, np.uint32).reshape(-1, 4)
+    return np.column_stack([stored, np.uint32(TOTAL) - stored.sum(axis=1, dtype=np.uint32)])
