@@ -1,0 +1,147 @@
+#include "splits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "errors.hpp"
+#include "integers.hpp"
+
+namespace ebz {
+
+namespace {
+
+// Corners at one point that are joined across edges without a split.
+class Runs {
+public:
+    explicit Runs(size_t n_corners) : parent_(n_corners) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+    // The first corner of the run.
+    Index first(Index c) {
+        while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+        return c;
+    }
+
+    void join(Index a, Index b) {
+        a = first(a);
+        b = first(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<Index> parent_;
+};
+
+// One path for both sides; a decoder passes the vertices to be filled in.
+template <class Coder>
+class SplitCoder {
+public:
+    SplitCoder(std::span<const Index> opposite, std::span<const Index> point, Index n_points,
+               std::span<Index> vertex, Coder& coder)
+        : opposite_(opposite),
+          point_(point),
+          vertex_(vertex),
+          coder_(coder),
+          n_splits_(n_points),
+          n_vertices_(n_points),
+          latest_(n_points, none),
+          runs_(opposite.size()) {}
+
+    void run() {
+        for (Index h = 0; h < n_corners(); ++h) {
+            if (opposite_[h] > h) edge(h, opposite_[h]);
+        }
+        for (Index c = 0; c < n_corners(); ++c) {
+            const Index first = runs_.first(c);
+            vertex_[c] = first == c ? vertex_of_run(c) : vertex_[first];
+        }
+    }
+
+private:
+    static constexpr uint8_t max_splits = 3;
+    static constexpr Index max_contexts = 3;
+
+    Index n_corners() const { return static_cast<Index>(opposite_.size()); }
+
+    void edge(Index h, Index g) {
+        const bool split = end(h, next(g), 0);
+        end(g, next(h), 1 + split);
+    }
+
+    // Corners a and b are at one end of an edge, on its two sides.
+    bool end(Index a, Index b, int other_end) {
+        uint8_t& n_splits = n_splits_[point_[a]];
+        const bool split = split_[other_end][n_splits].code(coder_, vertex_[a] != vertex_[b]);
+        if (split) {
+            n_splits = std::min<uint8_t>(n_splits + 1, max_splits);
+        } else {
+            runs_.join(a, b);
+        }
+        return split;
+    }
+
+    // A new vertex of the point, or one that it already has, counted back from the latest.
+    Index vertex_of_run(Index corner) {
+        const Index p = point_[corner], n_known = n_vertices_[p];
+        const bool is_known = vertex_[corner] < n_created();
+        if (n_known > 0 && again_[std::min(n_known, max_contexts) - 1].code(coder_, is_known)) {
+            return earlier(p, vertex_[corner]);
+        }
+        before_.push_back(latest_[p]);
+        ++n_vertices_[p];
+        return latest_[p] = n_created() - 1;
+    }
+
+    Index earlier(Index p, Index vertex) {
+        uint64_t back = 0;
+        if constexpr (Coder::encoding) {
+            for (Index v = latest_[p]; v != vertex; v = before_[v]) ++back;
+        }
+        back = std::min<uint64_t>(back_.code(coder_, back), static_cast<uint64_t>(n_vertices_[p]) - 1);
+        spend(back);
+        Index v = latest_[p];
+        while (back-- > 0) v = before_[v];
+        return v;
+    }
+
+    // Vertices in many runs at a point of many vertices would cost quadratic time.
+    void spend(uint64_t n_steps) {
+        n_steps_ += n_steps;
+        if (n_steps_ > 64 * opposite_.size()) throw Corrupt("the splits take too many steps");
+    }
+
+    Index n_created() const { return static_cast<Index>(before_.size()); }
+
+    std::span<const Index> opposite_, point_;
+    std::span<Index> vertex_;
+    Coder& coder_;
+    std::vector<uint8_t> n_splits_;   // seen at each point, up to max_splits
+    std::vector<Index> n_vertices_;   // of each point
+    std::vector<Index> latest_;       // vertex of each point
+    std::vector<Index> before_;       // the point's vertex before each vertex
+    uint64_t n_steps_ = 0;
+    Runs runs_;
+    std::array<std::array<AdaptiveBit, max_splits + 1>, 3> split_;
+    std::array<AdaptiveBit, max_contexts> again_;
+    IntegerModel back_;
+};
+
+}  // namespace
+
+std::vector<uint8_t> encode_splits(std::span<const Index> opposite, std::span<const Index> point,
+                                   Index n_points, std::span<const Index> vertex) {
+    std::vector<Index> copy(vertex.begin(), vertex.end());
+    RangeEncoder coder;
+    SplitCoder<RangeEncoder>(opposite, point, n_points, copy, coder).run();
+    return coder.finish();
+}
+
+std::vector<Index> decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
+                                 std::span<const Index> point, Index n_points) {
+    std::vector<Index> vertex(opposite.size());
+    RangeDecoder coder(bytes);
+    SplitCoder<RangeDecoder>(opposite, point, n_points, vertex, coder).run();
+    return vertex;
+}
+
+}  // namespace ebz
