@@ -82,24 +82,49 @@ ebz::StackModel stack(const Input<uint32_t>& frequencies, const Input<uint8_t>& 
     return {view(frequencies), view(top), n_conflicts, view(step), n_lengths, bottom};
 }
 
+ebz::WordHeader word_header(int64_t n_symbols, int64_t n_closed, int64_t n_single) {
+    require_addressable(3 * static_cast<size_t>(n_symbols + n_closed));
+    return {static_cast<ebz::Index>(n_symbols), static_cast<ebz::Index>(n_closed),
+            static_cast<ebz::Index>(n_single)};
+}
+
+using WordArrays = std::tuple<Array<uint8_t>, Array<int32_t>, Array<int32_t>, int32_t>;
+
+WordArrays word_arrays(ebz::DecodedConnectivity&& decoded) {
+    return {to_numpy(std::move(decoded.symbols)), to_numpy(std::move(decoded.connectivity.opposite)),
+            to_numpy(std::move(decoded.connectivity.fans.vertex)), decoded.connectivity.fans.n_vertices};
+}
+
 template <class Model>
 nb::bytes encode_symbols(const Input<uint8_t>& symbols, const Input<int64_t>& specials, const Model& model) {
     return to_bytes(
         without_gil([&] { return ebz::encode_symbols(view(symbols), specials_from(specials), model); }));
 }
 
-using Decoded = std::tuple<Array<uint8_t>, Array<int32_t>, Array<int32_t>, int32_t>;
-
 template <class Model>
-Decoded decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
-                            int64_t n_single, const Input<int64_t>& specials, const Model& model) {
-    require_addressable(3 * static_cast<size_t>(n_symbols + n_closed));
-    const ebz::WordHeader header{static_cast<ebz::Index>(n_symbols), static_cast<ebz::Index>(n_closed),
-                                 static_cast<ebz::Index>(n_single)};
-    ebz::DecodedConnectivity decoded = without_gil(
-        [&] { return ebz::decode_connectivity(view(bytes), header, specials_from(specials), model); });
-    return {to_numpy(std::move(decoded.symbols)), to_numpy(std::move(decoded.connectivity.opposite)),
-            to_numpy(std::move(decoded.connectivity.fans.vertex)), decoded.connectivity.fans.n_vertices};
+WordArrays decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
+                               int64_t n_single, const Input<int64_t>& specials, const Model& model) {
+    const ebz::WordHeader header = word_header(n_symbols, n_closed, n_single);
+    return word_arrays(without_gil(
+        [&] { return ebz::decode_connectivity(view(bytes), header, specials_from(specials), model); }));
+}
+
+nb::bytes encode_adaptive(const Input<uint8_t>& symbols, int64_t n_closed, int64_t n_single,
+                          const Input<int64_t>& specials, int effort) {
+    const ebz::WordHeader header = word_header(static_cast<int64_t>(symbols.size()), n_closed, n_single);
+    return to_bytes(without_gil([&] {
+        return ebz::encode_adaptive(view(symbols), header, specials_from(specials),
+                                    static_cast<ebz::Effort>(effort));
+    }));
+}
+
+WordArrays decode_adaptive(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed, int64_t n_single,
+                           const Input<int64_t>& specials, int effort) {
+    const ebz::WordHeader header = word_header(n_symbols, n_closed, n_single);
+    return word_arrays(without_gil([&] {
+        return ebz::decode_adaptive(view(bytes), header, specials_from(specials),
+                                    static_cast<ebz::Effort>(effort));
+    }));
 }
 
 template <class Model>
@@ -189,6 +214,10 @@ NB_MODULE(_kernels, m) {
           "A model from checked tables, flattened: 5 frequencies per row.");
     bind_word_coder<ebz::AutomatonModel>(m);
     bind_word_coder<ebz::StackModel>(m);
+    m.def("encode_adaptive", &encode_adaptive, "symbols"_a, "n_closed"_a, "n_single"_a, "specials"_a,
+          "effort"_a, "The word in reverse order under an adaptive model.");
+    m.def("decode_adaptive", &decode_adaptive, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
+          "specials"_a, "effort"_a, "What decode_connectivity gives, of a word under an adaptive model.");
     m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
           "space"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,

@@ -2,29 +2,11 @@
 
 #include "pieces.hpp"
 #include "reverse.hpp"
+#include "specials.hpp"
 
 namespace ebz {
 
 namespace {
-
-// The special S of the word, met from the last to the first.
-class SpecialsReversed {
-public:
-    explicit SpecialsReversed(std::span<const SpecialS> specials) : left_(specials) {}
-
-    // What the S at `position` meets, none if it is not special; positions fall from call to call.
-    int64_t take(int64_t position) {
-        if (left_.empty() || left_.back().position != position) return none;
-        const int64_t meets = left_.back().meets;
-        left_ = left_.first(left_.size() - 1);
-        return meets;
-    }
-
-    bool all_taken() const { return left_.empty(); }
-
-private:
-    std::span<const SpecialS> left_;
-};
 
 std::vector<Index> reordered(std::span<const Index> opposite, std::span<const Index> gates) {
     std::vector<Index> output_of(opposite.size());

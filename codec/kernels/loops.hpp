@@ -25,6 +25,7 @@ class LoopStack {
 public:
     size_t size() const { return loops_.size(); }
     const Loop& top(size_t below = 0) const { return loops_[loops_.size() - 1 - below]; }
+    bool allows_close() const { return loops_.back().length != 3 && loops_.back().conflict != 1; }
 
     // One reverse operation; a special S joins no loop of the stack.  Throws Corrupt where the
     // operation is not possible.
@@ -34,7 +35,7 @@ public:
         Loop& loop = loops_.back();
         switch (symbol) {
             case C:
-                if (loop.length == 3 || loop.conflict == 1) throw Corrupt("the word has a C where it is forbidden");
+                if (!allows_close()) throw Corrupt("the word has a C where it is forbidden");
                 loop = {known(loop.length) ? loop.length - 1 : unknown_length,
                         loop.conflict ? loop.conflict - 1 : 0};
                 break;

@@ -4,14 +4,19 @@
 
 namespace ebz {
 
+namespace {
+
+constexpr LoopEdge new_vertex{none, none, 2, 8};
+
+}  // namespace
+
 Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single)
     : n_closed_(n_closed),
       n_single_(n_single),
       n_triangles_(n_symbols + n_closed),
       triangle_(n_triangles_),
       opposite_(static_cast<size_t>(n_triangles_) * 3, none),
-      next_(opposite_.size()),
-      previous_(opposite_.size()) {}
+      loops_(opposite_.size()) {}
 
 void Reverse::apply(Symbol symbol, int64_t meets) {
     --triangle_;
@@ -36,40 +41,62 @@ void Reverse::match(Index h, Index g) {
 }
 
 void Reverse::link(Index h, Index g) {
-    next_[h] = g;
-    previous_[g] = h;
+    loops_[h].next = g;
+    loops_[g].previous = h;
+}
+
+// h starts at a vertex that is known from another half-edge, and that gets new edges.
+void Reverse::start(Index h, LoopEdge vertex, uint8_t n_new_edges) {
+    loops_[h].degree = std::min<uint8_t>(vertex.degree + n_new_edges, max_degree);
+    loops_[h].excess = vertex.excess;
+}
+
+void Reverse::add_excess(Index h, int excess) {
+    loops_[h].excess = static_cast<uint8_t>(std::clamp(loops_[h].excess + excess, 0, 15));
 }
 
 void Reverse::end() {
     const Index gate = 3 * triangle_;
-    link(gate, gate + 1);
-    link(gate + 1, gate + 2);
-    link(gate + 2, gate);
+    for (Index h = gate; h < gate + 3; ++h) {
+        link(h, next(h));
+        start(h, new_vertex, 0);
+    }
     stack_.push_back({});
 }
 
 void Reverse::right() {
     const Index g = top(), gate = 3 * triangle_;
-    link(previous_[g], gate);
+    start(gate, loops_[g], 1);
+    start(gate + 1, new_vertex, 0);
+    add_edge(next_of(g));
+    link(previous_of(g), gate);
     link(gate, gate + 1);
-    link(gate + 1, next_[g]);
+    link(gate + 1, next_of(g));
     match(gate + 2, g);
 }
 
 void Reverse::left() {
     const Index g = top(), gate = 3 * triangle_;
-    link(previous_[g], gate + 2);
+    start(gate + 2, loops_[g], 1);
+    start(gate, new_vertex, 0);
+    add_edge(next_of(g));
+    link(previous_of(g), gate + 2);
     link(gate + 2, gate);
-    link(gate, next_[g]);
+    link(gate, next_of(g));
     match(gate + 1, g);
 }
 
 void Reverse::close() {
     const Index g = top(), gate = 3 * triangle_;
-    const Index met = previous_[g], before = previous_[met];
-    if (before == g || previous_[before] == g) throw Corrupt("the word closes a loop of three edges");
+    const Index met = previous_of(g), before = previous_of(met);
+    if (before == g || previous_of(before) == g) throw Corrupt("the word closes a loop of three edges");
+    const int excess = loops_[g].degree - 6;
+    start(gate, loops_[met], 1);
+    add_edge(next_of(g));
+    add_excess(gate, excess);
+    add_excess(next_of(g), excess);
     link(before, gate);
-    link(gate, next_[g]);
+    link(gate, next_of(g));
     match(gate + 1, g);
     match(gate + 2, met);
 }
@@ -88,12 +115,16 @@ void Reverse::split(Index met) {
 void Reverse::splice(Index g, Index met) {
     const Index gate = 3 * triangle_;
     // A loop keeps two edges at least, and none of its links is to an edge that was matched.
-    if (met == g || met == next_[g] || met == previous_[g] || next_[met] == met) {
+    if (met == g || met == next_of(g) || met == previous_of(g) || next_of(met) == met) {
         throw Corrupt("the word folds an edge onto its neighbour");
     }
-    const Index before = previous_[met], after = next_[met];
-    link(previous_[g], after);
-    link(gate, next_[g]);
+    const Index before = previous_of(met), after = next_of(met);
+    start(gate, loops_[met], 1);
+    add_edge(next_of(g));
+    start(after, loops_[after], loops_[g].degree);
+    add_excess(after, loops_[g].excess - new_vertex.excess);
+    link(previous_of(g), after);
+    link(gate, next_of(g));
     link(before, gate);
     match(gate + 1, g);
     match(gate + 2, met);
@@ -141,8 +172,8 @@ void Reverse::move_closed_components() {
         const size_t i = n_open + j;
         const Index by = n_closed_ - 1 - j;
         const Active& active = component(i);
-        const Index a = active.gate, b = previous_[a], c = next_[a];
-        if (next_[c] != b || b == c) throw Corrupt("a closed component ends in a loop of other than three edges");
+        const Index a = active.gate, b = previous_of(a), c = next_of(a);
+        if (next_of(c) != b || b == c) throw Corrupt("a closed component ends in a loop of other than three edges");
         shift_symbols(front(i), front(i + 1), by);
         add_first_triangle(active.front + j, a - 3 * by);
         match(3 * (active.front + j) + 1, b - 3 * by);

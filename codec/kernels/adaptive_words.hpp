@@ -1,0 +1,206 @@
+// Adaptive models of the reverse word: mixed contexts of what both sides know.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "context_mixing.hpp"
+#include "match_model.hpp"
+#include "word_view.hpp"
+
+namespace ebz {
+
+// One hash of a context's number and up to 96 bits.
+constexpr uint32_t context_hash(uint32_t context, uint32_t a, uint32_t b = 0, uint32_t c = 0) {
+    uint32_t h = context * 0x9E3779B1u;
+    h = (h ^ a) * 0x85EBCA6Bu;
+    h = ((h ^ h >> 13) ^ b) * 0xC2B2AE35u;
+    h = ((h ^ h >> 15) ^ c) * 0x27D4EB2Fu;
+    return (h ^ h >> 14) * 0x9E3779B1u;
+}
+
+// Bits side by side, four each but for the first.
+template <class... Nibble>
+constexpr uint32_t pack(uint32_t first, Nibble... nibbles) {
+    ((first = first << 4 | nibbles), ...);
+    return first;
+}
+
+struct StrongContexts {
+    static constexpr int n = 24;
+    static constexpr int n_table_bits = 16;
+
+    static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
+                     std::array<uint32_t, n>& h) {
+        const uint32_t r1 = past.recent(1), r2 = past.recent(2), r3 = past.recent(3);
+        int i = 0;
+        const auto add = [&](uint32_t a, uint32_t b = 0, uint32_t c = 0) { h[i] = context_hash(i, a, b, c), ++i; };
+        add(v.l0, v.can_close);
+        add(v.l0, r2);
+        add(pack(v.l0, v.r0), r1);
+        add(pack(v.l0, v.l1), r1);
+        add(r3, pack(past.since_close(), v.l0));
+        add(pack(v.l0, v.l1, v.r0, v.r1), v.can_close);
+        add(pack(std::min(v.length, 9u), std::min(v.conflict, 9u)), v.l0);
+        add(v.l0, past.closed_degrees(2));
+        add(pack(v.l0, v.l1, v.r0), r2);
+        add(pack(v.l0, v.l1, v.l2, v.r0), v.can_close);
+        add(pack(v.l0, v.r0, v.excess_l0), v.can_close);
+        add(pack(v.l0, v.l1, v.excess_l0, v.excess_l1), v.excess_r0);
+        add(static_cast<uint32_t>(past.recent(10)), v.l0);
+        add(static_cast<uint32_t>(past.recent(16)), static_cast<uint32_t>(past.recent(16) >> 32), v.l0);
+        add(past.recent(4), pack(v.l0, v.l1));
+        add(past.recent(6), pack(v.l0, v.r0));
+        add(pack(v.l0, v.l1, v.l2, v.l3, v.r0), past.closed_degrees(1));
+        add(v.l0, past.closed_degrees(3), past.since_close());
+        add(v.length << 5 | v.below_length, v.can_split, pack(v.below_l0, v.below_r0));
+        add(pack(v.l0, v.r0, v.r1, v.r2), r2);
+        add(pack(v.l0, v.l1, v.excess_l0), past.closed_degrees(1));
+        add(pack(far.predicted(), far.confidence(), v.l0));
+        add(pack(near.predicted(), near.confidence(), v.l0));
+        add(pack(v.l0, v.l1, v.l2, v.r0, v.r1, v.r2), r3);
+    }
+};
+
+struct FastContexts {
+    static constexpr int n = 7;
+    static constexpr int n_table_bits = 14;
+
+    static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
+                     std::array<uint32_t, n>& h) {
+        int i = 0;
+        const auto add = [&](uint32_t a, uint32_t b = 0, uint32_t c = 0) { h[i] = context_hash(i, a, b, c), ++i; };
+        add(v.l0, past.recent(2));
+        add(pack(v.l0, v.l1, v.r0, v.r1), v.can_close);
+        add(pack(v.l0, v.l1, v.l2, v.r0), past.recent(1));
+        add(past.recent(6), pack(v.l0, v.r0));
+        add(static_cast<uint32_t>(past.recent(10)), v.l0);
+        add(pack(v.l0, v.l1, v.excess_l0), past.closed_degrees(1));
+        add(pack(far.predicted(), far.confidence(), v.l0));
+    }
+};
+
+// Decisions in turn: C or not, R or not, L or not, S or E.
+template <class Contexts>
+class MixedModel {
+public:
+    explicit MixedModel(Index n_symbols)
+        : far_(20, n_symbols),
+          near_(12, n_symbols),
+          tables_(n, EvidenceTable(std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) + 2, 10,
+                                                   Contexts::n_table_bits))),
+          by_symbols_(n_decisions * 128, first_weight),
+          by_match_(n_decisions * 512, first_weight),
+          refinement_(n_decisions * 256) {}
+
+    template <class Coder>
+    Symbol code(Coder& coder, Symbol symbol, const WordView& view) {
+        Contexts::hash(view, history_, near_, far_, hashes_);
+        find(0);
+        if (view.can_close && decide(coder, 0, symbol == C, view)) return C;
+        if (decide(coder, 1, symbol == R, view)) return R;
+        if (decide(coder, 2, symbol == L, view)) return L;
+        if (!view.can_split) return E;
+        find(1);
+        return decide(coder, 3, symbol == S, view) ? S : E;
+    }
+
+    void advance(std::span<const uint8_t> symbols, Index position, uint32_t left_degree) {
+        history_.advance(static_cast<Symbol>(symbols[position]), left_degree);
+        far_.advance(symbols, position, history_.recent());
+        near_.advance(symbols, position, history_.recent());
+    }
+
+private:
+    static constexpr int n = Contexts::n, n_decisions = 4;
+
+    void find(uint32_t salt) {
+        for (int i = 0; i < n; ++i) evidence_[i] = &tables_[i].find(hashes_[i] + salt * 0x632BE5ABu);
+    }
+
+    template <class Coder>
+    bool decide(Coder& coder, int decision, bool bit, const WordView& view) {
+        const int slot = decision % Evidence::n_decisions;
+        for (int i = 0; i < n; ++i) {
+            const Estimate& e = evidence_[i]->estimates[slot];
+            inputs_[i] = static_cast<int16_t>(stretch(e.p12()) * confidence[e.count] >> 8);
+        }
+        by_symbols_.select(decision * 128 + (view.l0 << 3 | history_.recent(1)));
+        by_match_.select(decision * 512 + (far_.confidence() << 6 | near_.confidence() << 3 | std::min(history_.since_close(), 7u)));
+        const int mixed = (by_symbols_.mix(inputs_) + by_match_.mix(inputs_)) / 2;
+        const int p = squash(mixed);
+        const int refined = (p + refinement_.refine(decision * 256 + pack(view.l0, view.l1), mixed)) / 2;
+        bit = coder.bit(bit, static_cast<uint32_t>(std::clamp(refined, floor, 65536 - floor)));
+        by_symbols_.learn(inputs_, bit);
+        by_match_.learn(inputs_, bit);
+        refinement_.learn(bit);
+        for (int i = 0; i < n; ++i) learn(evidence_[i]->estimates[slot], bit, p);
+        return bit;
+    }
+
+    // A new context starts from what was predicted without it.
+    static void learn(Estimate& estimate, bool bit, int predicted) {
+        if (estimate.count == 0) estimate.probability = static_cast<uint32_t>(std::clamp(predicted, 1311, 64225)) << 6;
+        estimate.learn(bit);
+    }
+
+    static constexpr int floor = 12;
+    // The sum of all weights is 1.6 at first.
+    static constexpr int32_t first_weight = (8 << 16) / (5 * n);
+    // In 2^-8; 0 for a context that is new.
+    static constexpr auto confidence = [] {
+        std::array<int, Estimate::max_count + 1> table{};
+        for (int n = 1; n <= static_cast<int>(Estimate::max_count); ++n) table[n] = 256 * (2 * n + 9) / (2 * n + 14);
+        return table;
+    }();
+
+    WordHistory history_;
+    MatchModel far_, near_;
+    std::vector<EvidenceTable> tables_;
+    Mixer<n> by_symbols_, by_match_;
+    Refinement refinement_;
+    std::array<uint32_t, n> hashes_{};
+    std::array<Evidence*, n> evidence_{};
+    typename Mixer<n>::Inputs inputs_{};
+};
+
+// The fastest: one context, no mixing.
+class DirectModel {
+public:
+    explicit DirectModel(Index) : estimates_(n_decisions << context_bits) {}
+
+    template <class Coder>
+    Symbol code(Coder& coder, Symbol symbol, const WordView& view) {
+        const uint32_t context = view.l0 << 9 | static_cast<uint32_t>(recent_);
+        if (view.can_close && decide(coder, 0, context, symbol == C)) return C;
+        if (decide(coder, 1, context, symbol == R)) return R;
+        if (decide(coder, 2, context, symbol == L)) return L;
+        if (!view.can_split) return E;
+        return decide(coder, 3, context, symbol == S) ? S : E;
+    }
+
+    void advance(std::span<const uint8_t> symbols, Index position, uint32_t) {
+        recent_ = (recent_ << 3 | (symbols[position] + 1u)) & 511;
+    }
+
+private:
+    static constexpr int n_decisions = 4, context_bits = 13;
+
+    template <class Coder>
+    bool decide(Coder& coder, int decision, uint32_t context, bool bit) {
+        Estimate& estimate = estimates_[decision << context_bits | context];
+        const uint32_t p = estimate.probability >> (Estimate::probability_bits - probability_bits);
+        bit = coder.bit(bit, std::clamp<uint32_t>(p, 12, 65524));
+        estimate.learn(bit);
+        return bit;
+    }
+
+    std::vector<Estimate> estimates_;
+    uint32_t recent_ = 0;
+};
+
+}  // namespace ebz
+

@@ -1,0 +1,152 @@
+// Binary decisions predicted by many contexts, mixed in the logistic domain.
+//
+// Reference: M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005.
+// Different here: a context met for the first time starts from what the others predicted, and mixers
+// learn fast at first.  Integers only, so that both sides agree on every machine.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "logistic.hpp"
+#include "range_coder.hpp"
+
+namespace ebz {
+
+// A probability in 2^-22 and how often it was met.
+struct Estimate {
+    static constexpr int probability_bits = 22;
+    static constexpr uint32_t max_count = 255;
+
+    uint32_t probability : 22 = 1u << 21;
+    uint32_t count : 10 = 0;
+
+    int p12() const { return static_cast<int>(probability >> 10); }
+
+    void learn(bool bit) {
+        const int64_t target = bit ? (1 << probability_bits) - 1 : 0;
+        const int64_t change = (target - probability) * rates[count];
+        probability = static_cast<uint32_t>(probability + (change >> 16));
+        count += count < max_count;
+    }
+
+    // 2^16 / (count + 1.2), between the mean (+ 1) and the last value (+ 0).
+    static constexpr auto rates = [] {
+        std::array<int64_t, max_count + 1> table{};
+        for (int n = 0; n <= static_cast<int>(max_count); ++n) table[n] = 655360 / (10 * n + 12);
+        return table;
+    }();
+};
+
+// The estimates of up to three decisions in one context.
+struct Evidence {
+    static constexpr int n_decisions = 3;
+    uint32_t check = 0;
+    std::array<Estimate, n_decisions> estimates;
+};
+
+// One context's evidence by hash; what collides starts anew.
+class EvidenceTable {
+public:
+    explicit EvidenceTable(int n_bits) : shift_(32 - n_bits), slots_(size_t{1} << n_bits) {}
+
+    Evidence& find(uint32_t hash) {
+        Evidence& slot = slots_[hash >> shift_];
+        if (slot.check != hash) {
+            slot = {};
+            slot.check = hash;
+        }
+        return slot;
+    }
+
+private:
+    int shift_;
+    std::vector<Evidence> slots_;
+};
+
+// Weighs n inputs in sets, one of which is selected for each decision.
+template <int n>
+class Mixer {
+public:
+    using Inputs = std::array<int16_t, n>;
+
+    Mixer(size_t n_sets, int32_t weight) : sets_(n_sets) {
+        for (Set& set : sets_) set.weights.fill(weight);
+    }
+
+    void select(size_t set) { selected_ = &sets_[set]; }
+
+    int mix(const Inputs& inputs) {
+        int64_t sum = 0;
+        for (int i = 0; i < n; ++i) sum += static_cast<int64_t>(selected_->weights[i]) * inputs[i];
+        mixed_ = static_cast<int>(std::clamp<int64_t>(sum >> weight_bits, -stretch_limit, stretch_limit));
+        return mixed_;
+    }
+
+    // Gradient descent on the code length.
+    void learn(const Inputs& inputs, bool bit) {
+        const int error = (bit << probability_bits) - squash(mixed_);
+        const int step = (error * rates[selected_->count]) >> 12;  // 17 + 11 bits
+        selected_->count = std::min(selected_->count + 1, max_count);
+        for (int i = 0; i < n; ++i) {
+            const int32_t weight = selected_->weights[i] + ((inputs[i] * step + (1 << 11)) >> 12);
+            selected_->weights[i] = std::clamp(weight, -max_weight, max_weight);
+        }
+    }
+
+private:
+    static constexpr int weight_bits = 16;
+    static constexpr int32_t max_weight = 8 << weight_bits;
+    static constexpr int max_count = 255;
+    // In 2^-16: 0.002 in the long run, 0.017 at first.
+    static constexpr auto rates = [] {
+        std::array<int, max_count + 1> table{};
+        for (int uses = 0; uses <= max_count; ++uses) table[uses] = 131 + 983 * 16 / (16 + uses);
+        return table;
+    }();
+
+    struct Set {
+        std::array<int32_t, n> weights;
+        int count = 0;
+    };
+
+    std::vector<Set> sets_;
+    Set* selected_ = nullptr;
+    int mixed_ = 0;
+};
+
+// Secondary estimation: what a prediction was worth in a context.
+class Refinement {
+public:
+    explicit Refinement(size_t n_contexts) : curves_(n_contexts) {
+        for (Curve& curve : curves_) {
+            for (int i = 0; i <= n_steps; ++i) curve[i] = static_cast<uint16_t>(squash((i - n_steps / 2) * step));
+        }
+    }
+
+    int refine(size_t context, int stretched) {
+        const int at = stretched + n_steps / 2 * step;
+        low_ = &curves_[context][at / step];
+        const int part = at % step;
+        nearer_ = low_ + (2 * part >= step);
+        return (low_[0] * (step - part) + low_[1] * part) / step;
+    }
+
+    void learn(bool bit) {
+        *nearer_ = static_cast<uint16_t>(*nearer_ + (((bit ? 65535 : 0) - *nearer_) >> 6));
+    }
+
+private:
+    static constexpr int step = 144, n_steps = 32;
+    static_assert(n_steps / 2 * step > stretch_limit);
+    using Curve = std::array<uint16_t, n_steps + 1>;
+
+    std::vector<Curve> curves_;
+    uint16_t* low_ = nullptr;
+    uint16_t* nearer_ = nullptr;
+};
+
+}  // namespace ebz

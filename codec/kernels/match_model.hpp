@@ -1,0 +1,70 @@
+// Predicts that what followed the same symbols earlier follows again.
+//
+// Reference: the match model of PAQ; M. Mahoney, 2002.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "edgebreaker.hpp"
+
+namespace ebz {
+
+class MatchModel {
+public:
+    // A context of n_context symbols (at most 21) is looked up.
+    explicit MatchModel(int n_context, Index n_symbols)
+        : n_context_(n_context), n_symbols_(n_symbols), latest_(size_t{1} << n_bits, none) {}
+
+    static constexpr uint32_t no_symbol = n_symbols;
+
+    // What followed, n_symbols if nothing matches.
+    uint32_t predicted() const { return predicted_; }
+
+    // Classes of the number of symbols that matched, 0 to 7.
+    uint32_t confidence() const { return confidence_; }
+
+    // symbols[position] is the latest, those before it have greater positions.
+    void advance(std::span<const uint8_t> symbols, Index position, uint64_t recent) {
+        if (length_ > 0 && symbols[at_] == symbols[position]) {
+            length_ = std::min(length_ + 1, max_length);
+            --at_;
+        } else {
+            length_ = 0;
+        }
+        const uint64_t key = recent & ((uint64_t{1} << (3 * n_context_)) - 1);
+        Index& latest = latest_[(key * 0x9E3779B97F4A7C15u) >> (64 - n_bits)];
+        if (length_ == 0 && latest != none) start(symbols, position, latest);
+        latest = position - 1;
+        // A match that ran into the present has no symbol to offer yet.
+        predicted_ = length_ > 0 ? symbols[at_] : n_symbols;
+        confidence_ = length_ > 0 ? confidence_of(length_) : 0;
+    }
+
+private:
+    static constexpr int n_bits = 16, max_length = 512, max_start = 32;
+
+    void start(std::span<const uint8_t> symbols, Index position, Index after) {
+        at_ = after;
+        while (length_ < max_start && at_ + 1 + length_ < n_symbols_ &&
+               symbols[at_ + 1 + length_] == symbols[position + length_]) {
+            ++length_;
+        }
+        if (length_ < n_context_) length_ = 0;
+    }
+
+    static uint32_t confidence_of(int length) {
+        return 1 + (length > 15) + (length > 20) + (length > 24) + (length > 31) + (length > 100) + (length > 400);
+    }
+
+    int n_context_;
+    Index n_symbols_;
+    std::vector<Index> latest_;  // by hash of the context, the position after it
+    Index at_ = none;            // of the symbol predicted
+    int length_ = 0;
+    uint32_t predicted_ = no_symbol, confidence_ = 0;
+};
+
+}  // namespace ebz
