@@ -8,15 +8,13 @@ from ebz.codec import pipeline
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
 from ebz.codec.lattice import MAX_BITS
+from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE, LEVELS
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
 from ebz.codec.pipeline import Progress
 from ebz.formats import container
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
-
-DEFAULT_MODEL = "stack"
-LEVELS = range(1, 10)
 
 BytesLike = bytes | bytearray | memoryview
 
@@ -26,7 +24,7 @@ def compress(
     *,
     bits: int | None = None,
     max_error: float | None = None,
-    level: int = 6,
+    level: int = DEFAULT_LEVEL,
     model: str | os.PathLike[str] | AnyTable | None = None,
     embed_model: bool = False,
     progress: Progress | None = None,
@@ -36,15 +34,19 @@ def compress(
     bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).
     max_error: in model units; no coordinate moves by more.  At most one of the two.
     level: 1 (fast) to 9 (small).
-    model: name of a built-in table, path of a table file, or a table; embed_model stores it inline.
+    model: name of a built-in table, path of a table file, or a table: the word is coded with it;
+    None: with the level's adaptive model, or with the built-in table where that is shorter.
+    embed_model: code the word with a table and store that in the file.
     progress: called as progress(stage, done, total).
 
     Order of vertices and faces may change.  compress(decompress(data)) gives the same bytes with
     the same options.  Raises OptionError and MeshError.
     """
     _check_options(bits, max_error, level)
-    table = load_model(model)
-    encoded = pipeline.encode(mesh, table, bits=bits, max_error=max_error, progress=progress)
+    table = None if model is None and not embed_model else load_model(model)
+    encoded = pipeline.encode(
+        mesh, table, level=level, bits=bits, max_error=max_error, progress=progress
+    )
     return container.write(encoded, embed_model=embed_model or _is_file(model))
 
 
@@ -69,7 +71,7 @@ def parse(data: BytesLike, memory_limit: int) -> EncodedMesh:
 
 def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
     """The table that a `model` option means; raises OptionError where there is none."""
-    return model if isinstance(model, AnyTable) else load(model or DEFAULT_MODEL)
+    return model if isinstance(model, AnyTable) else load(model or DEFAULT_TABLE)
 
 
 def _is_file(model: Any) -> bool:

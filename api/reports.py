@@ -2,6 +2,7 @@
 
 from ebz.codec import pipeline, statistics
 from ebz.codec.compare import Verification, compare
+from ebz.codec.levels import guaranteed_by
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.statistics import Stats
@@ -19,7 +20,7 @@ def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -
     view = memoryview(content).cast("B")
     encoded = parse(view, memory_limit)
     decoded = pipeline.decode(encoded)
-    guarantee = guaranteed_bits(encoded.table)
+    guarantee = guaranteed_bits(guaranteed_by(encoded.model))
     return statistics.describe(
         encoded, decoded.word, decoded.surface, container.sizes(view), guarantee
     )

@@ -4,6 +4,7 @@ The word codes oriented manifold pieces; where the mesh is not a manifold, sever
 pieces are one vertex of the mesh, and the gluing says which.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,11 +15,13 @@ from ebz.codec import _kernels
 from ebz.codec.errors import CorruptError, MeshError
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
+from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import Table
 
 Int32s = npt.NDArray[np.int32]
 Int64s = npt.NDArray[np.int64]
+WordModel = AnyTable | Effort
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,7 @@ class EncodedWord:
     """A word and what stands beside it."""
 
     counts: WordCounts
+    model: WordModel
     symbols: npt.NDArray[np.uint8]  # C, L, R, S, E as 0 to 4, first triangle first
     specials: Int64s  # (2 n_specials,) position in the word, half-edge met
     word: bytes  # the symbols from the last to the first, under the model
@@ -89,9 +93,11 @@ class OutputOrder:
 
 
 def encode(
-    faces: npt.NDArray[Any], n_vertices: int, table: AnyTable
+    faces: npt.NDArray[Any], n_vertices: int, models: Sequence[WordModel]
 ) -> tuple[EncodedWord, Surface, OutputOrder]:
-    """The word of any list of triangles; linear time but for sorting what is not manifold.
+    """The word of any list of triangles under the model that makes it shortest.
+
+    Linear time but for sorting what is not manifold.
 
     Raises MeshError where there are more faces or vertices than can be coded.
     """
@@ -99,11 +105,14 @@ def encode(
     symbols, specials, n_closed, n_single = kernel
     copies = _copies(surface)
     counts = WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, len(copies))
+    words = [(_encode_word(symbols, specials, counts, model), model) for model in models]
+    word, model = min(words, key=lambda pair: len(pair[0]))
     encoded = EncodedWord(
         counts,
+        model,
         symbols,
         specials,
-        _kernels.encode_symbols(symbols, specials, _model(table)),
+        word,
         _encode_specials(specials),
         _encode_gluing(copies, surface.vertex_of_piece),
     )
@@ -111,20 +120,13 @@ def encode(
 
 
 def decode(
-    word: bytes, special_integers: bytes, gluing: bytes, counts: WordCounts, table: AnyTable
+    word: bytes, special_integers: bytes, gluing: bytes, counts: WordCounts, model: WordModel
 ) -> tuple[EncodedWord, Surface]:
     """The symbols and the surface of an encoded word; raises CorruptError where they contradict."""
     specials = _decode_specials(special_integers, counts)
-    symbols, opposite, piece_vertex, n_pieces = _kernels.decode_connectivity(
-        np.frombuffer(word, np.uint8),
-        counts.n_symbols,
-        counts.n_closed,
-        counts.n_single,
-        specials,
-        _model(table),
-    )
+    symbols, opposite, piece_vertex, n_pieces = _decode_word(word, specials, counts, model)
     vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
-    encoded = EncodedWord(counts, symbols, specials, word, special_integers, gluing)
+    encoded = EncodedWord(counts, model, symbols, specials, word, special_integers, gluing)
     return encoded, Surface(opposite, piece_vertex, vertex_of_piece)
 
 
@@ -134,7 +136,25 @@ def traverse(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Surface, OutputO
     return surface, order
 
 
-def _model(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
+def _encode_word(
+    symbols: npt.NDArray[np.uint8], specials: Int64s, counts: WordCounts, model: WordModel
+) -> bytes:
+    if isinstance(model, AnyTable):
+        return _kernels.encode_symbols(symbols, specials, _frozen(model))
+    return _kernels.encode_adaptive(symbols, counts.n_closed, counts.n_single, specials, model)
+
+
+def _decode_word(
+    word: bytes, specials: Int64s, counts: WordCounts, model: WordModel
+) -> tuple[npt.NDArray[np.uint8], Int32s, Int32s, int]:
+    data = np.frombuffer(word, np.uint8)
+    sizes = counts.n_symbols, counts.n_closed, counts.n_single
+    if isinstance(model, AnyTable):
+        return _kernels.decode_connectivity(data, *sizes, specials, _frozen(model))
+    return _kernels.decode_adaptive(data, *sizes, specials, model)
+
+
+def _frozen(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
     frequencies = table.frequencies.reshape(-1)
     if isinstance(table, Table):
         return _kernels.automaton(frequencies, table.successors.reshape(-1))

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ebz.codec.connectivity import WordCounts
+from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
-from ebz.codec.models.load import AnyTable
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ class EncodedMesh:
     n_vertices: int
     n_exceptions: int
     lattice: Lattice
-    table: AnyTable
+    model: WordModel
     streams: Streams
     vertex_attributes: list[EncodedArray] = field(default_factory=list)
     face_attributes: list[EncodedArray] = field(default_factory=list)

@@ -8,14 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels, attributes, connectivity, lattice, metadata
-from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface
+from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
 from ebz.codec.errors import CorruptError
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
+from ebz.codec.levels import DEFAULT_LEVEL, word_models
 from ebz.codec.mesh import Mesh, face_dtype
-from ebz.codec.models.load import AnyTable
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
@@ -35,16 +35,21 @@ class Decoded:
 
 def encode(
     mesh: Mesh,
-    table: AnyTable,
+    model: WordModel | None = None,
     *,
+    level: int = DEFAULT_LEVEL,
     bits: int | None = None,
     max_error: float | None = None,
     progress: Progress | None = None,
 ) -> EncodedMesh:
-    """Every part of a mesh as streams; nothing is lost unless bits or max_error say so."""
+    """Every part of a mesh as streams; nothing is lost unless bits or max_error say so.
+
+    model: of the word; None: the best of those of the level.
+    """
     report = progress or _silent
     report("connectivity", 0, N_STAGES)
-    word, surface, order = connectivity.encode(mesh.faces, len(mesh.vertices), table)
+    models = word_models(level) if model is None else [model]
+    word, surface, order = connectivity.encode(mesh.faces, len(mesh.vertices), models)
     report("lattice", 1, N_STAGES)
     coordinates = mesh.vertices[order.vertices]
     points = lattice.fit(coordinates, bits, max_error)
@@ -58,7 +63,7 @@ def encode(
         n_vertices=len(coordinates),
         n_exceptions=len(points.exceptions),
         lattice=points.lattice,
-        table=table,
+        model=word.model,
         streams=Streams(
             word=word.word,
             special_integers=word.special_integers,
@@ -83,7 +88,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     streams, counts = encoded.streams, encoded.counts
     report("connectivity", 0, N_STAGES)
     word, surface = connectivity.decode(
-        streams.word, streams.special_integers, streams.gluing, counts, encoded.table
+        streams.word, streams.special_integers, streams.gluing, counts, encoded.model
     )
     n_vertices = encoded.n_vertices
     if surface.vertex_of_piece.max(initial=-1) >= n_vertices:

@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.connectivity import EncodedWord, Surface
+from ebz.codec.connectivity import EncodedWord, Surface, WordModel
 from ebz.codec.encoded import EncodedMesh
+from ebz.codec.models.adaptive import Effort
 
 # W. T. Tutte, "A census of planar triangulations", 1962: log2(256 / 27) bits per vertex.
 TUTTE_LIMIT = math.log2(256 / 27)
@@ -101,7 +102,7 @@ def describe(
         glued_vertices=encoded.counts.n_copies,
         symbols=_count_symbols(word.symbols),
         hole_and_handle_integers=2 * encoded.counts.n_specials,
-        model=encoded.table.name,
+        model=_model_name(encoded.model),
         lattice={"kind": encoded.lattice.kind, **_parameters(encoded.lattice)},
         exceptions=encoded.n_exceptions,
         attributes=_attribute_names(encoded),
@@ -133,6 +134,10 @@ def valence_entropy(surface: Surface) -> float:
     counts = np.bincount(valence)
     share = counts[counts > 0] / n
     return abs(float((share * np.log2(share)).sum()))
+
+
+def _model_name(model: WordModel) -> str:
+    return model.model_name if isinstance(model, Effort) else model.name
 
 
 def _count_symbols(symbols: npt.NDArray[np.uint8]) -> dict[str, int]:

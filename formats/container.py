@@ -17,6 +17,7 @@ from ebz.codec.lattice import (
     StepLattice,
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
+from ebz.codec.models.load import AnyTable
 from ebz.formats import chunks, layout, tables
 from ebz.formats.chunks import Chunk
 from ebz.formats.limits import check_declared_sizes
@@ -31,15 +32,16 @@ MAX_COUNT = 2**63
 
 def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
     """The file: chunks that hold nothing are left out, but for the header and the end."""
-    model = tables.number_of(encoded.table)
-    inline = embed_model or model == layout.INLINE_MODEL
+    model = tables.number_of(encoded.model)
+    table = encoded.model if isinstance(encoded.model, AnyTable) else None
+    inline = table is not None and (embed_model or model == layout.INLINE_MODEL)
     streams = encoded.streams
     parts = [
         chunks.start(),
         chunks.write(layout.HEADER, _header(encoded, layout.INLINE_MODEL if inline else model)),
     ]
     optional = [
-        (layout.MODEL, tables.write(encoded.table) if inline else b""),
+        (layout.MODEL, tables.write(table) if table and inline else b""),
         (layout.WORD, streams.word if encoded.counts.n_symbols else b""),
         (layout.SPECIALS, streams.special_integers),
         (layout.GLUING, streams.gluing),
@@ -107,7 +109,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
         lattice=_parse_lattice(header),
-        table=tables.read(header.model, found.get(layout.MODEL)),
+        model=tables.read(header.model, found.get(layout.MODEL)),
         streams=Streams(
             word=payload(layout.WORD),
             special_integers=payload(layout.SPECIALS),

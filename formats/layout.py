@@ -24,6 +24,7 @@ from construct import (
 )
 
 from ebz.codec.errors import CorruptError
+from ebz.codec.models.adaptive import Effort
 
 Malformed = ConstructError
 
@@ -83,9 +84,10 @@ Header = Struct(
     ),
 )
 
-# Model 0 is the table of the file's model chunk; the others are built in and never change.
+# Model 0 is the table of the file's model chunk; the other models are built in and never change.
 INLINE_MODEL = 0
 MODELS = {1: "loop-60", 2: "stack"}
+ADAPTIVE_MODELS = {129: Effort.DIRECT, 130: Effort.FAST, 131: Effort.STRONG}
 
 AUTOMATON, STACK = range(2)
 Frequencies = Array(this.n_rows, Array(4, Int16ul))  # of C, L, R, S; E has what is left of 2^16

@@ -4,6 +4,8 @@ import math
 
 from ebz.codec.encoded import EncodedArray, EncodedMesh
 from ebz.codec.errors import CorruptError, MemoryLimitError
+from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, STATE_BYTES
+from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
 
 # The cheapest adaptive bit: AdaptiveBit in codec/kernels/adaptive_bit.hpp.
@@ -19,21 +21,34 @@ BYTES_PER_VERTEX = 160
 def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) -> None:
     """Raise CorruptError where a count exceeds its stream, MemoryLimitError past the limit."""
     counts, streams = encoded.counts, encoded.streams
-    bits_per_symbol = math.log2(TOTAL / int(encoded.table.frequencies.max()))
-    _check("symbols", counts.n_symbols, bits_per_symbol, streams.word)
+    _check_symbols(encoded)
     _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
     _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
     _check("vertices", encoded.n_vertices, 3 * CHEAPEST_BIT, streams.positions)
     _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
     if streams.rotations is not None:
         _check("rotations", counts.n_faces, CHEAPEST_BIT, streams.rotations)
-    size = _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
+    size = 0 if isinstance(encoded.model, AnyTable) else STATE_BYTES
+    size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
     size += _arrays_size(encoded.face_attributes, counts.n_faces)
     size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices + 2 * n_bytes
     if size > memory_limit:
         raise MemoryLimitError(
             f"decoding takes up to {size:,} bytes of memory, past the limit of {memory_limit:,}"
         )
+
+
+def _check_symbols(encoded: EncodedMesh) -> None:
+    counts, model = encoded.counts, encoded.model
+    if isinstance(model, AnyTable):
+        cheapest = math.log2(TOTAL / int(model.frequencies.max()))
+        _check("symbols", counts.n_symbols, cheapest, encoded.streams.word)
+        return
+    # A special S costs integers instead, and single triangles have their own vertices or copies.
+    if 3 * counts.n_single > encoded.n_vertices + counts.n_copies:
+        raise CorruptError(f"header: {counts.n_single} single triangles have too few vertices")
+    n_free = 1 + counts.n_single + counts.n_specials
+    _check("symbols", max(0, counts.n_symbols - n_free), CHEAPEST_SYMBOL, encoded.streams.word)
 
 
 def _check(what: str, count: int, bits_each: float, stream: bytes) -> None:

@@ -5,7 +5,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec.connectivity import WordModel
 from ebz.codec.errors import CorruptError, OptionError, VersionError
+from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.stack import StackTable
 from ebz.codec.models.table import TOTAL, Table
@@ -13,10 +15,12 @@ from ebz.formats import layout
 from ebz.formats.chunks import Chunk
 
 
-def number_of(table: AnyTable) -> int:
-    """The number of a built-in table, INLINE_MODEL where the table is none of them."""
+def number_of(model: WordModel) -> int:
+    """The number of a built-in model, INLINE_MODEL where it is a table that is none of them."""
+    if isinstance(model, Effort):
+        return {effort: number for number, effort in layout.ADAPTIVE_MODELS.items()}[model]
     for number, name in layout.MODELS.items():
-        if table.name == name and table.same_as(load(name)):
+        if model.name == name and model.same_as(load(name)):
             return number
     return layout.INLINE_MODEL
 
@@ -41,8 +45,10 @@ def write(table: AnyTable) -> bytes:
     return bytes([layout.STACK]) + layout.build(layout.Stack, common | classes)
 
 
-def read(number: int, chunk: Chunk | None) -> AnyTable:
-    """The table that a header's number means; raises CorruptError where the chunk is malformed."""
+def read(number: int, chunk: Chunk | None) -> WordModel:
+    """The model that a header's number means; raises CorruptError where the chunk is malformed."""
+    if number in layout.ADAPTIVE_MODELS:
+        return layout.ADAPTIVE_MODELS[number]
     if number != layout.INLINE_MODEL:
         if number not in layout.MODELS:
             raise VersionError(f"header: unknown model {number}")

@@ -1,0 +1,27 @@
+"""What the levels 1 to 9 mean, stage by stage."""
+
+from ebz.codec.connectivity import WordModel
+from ebz.codec.models.adaptive import Effort
+from ebz.codec.models.load import AnyTable, load
+
+LEVELS = range(1, 10)
+DEFAULT_LEVEL = 6
+# The certified table to which the adaptive models are compared.
+DEFAULT_TABLE = "stack"
+
+
+def word_effort(level: int) -> Effort:
+    """How hard the adaptive model of the word works."""
+    if level < 3:
+        return Effort.DIRECT
+    return Effort.FAST if level < 7 else Effort.STRONG
+
+
+def word_models(level: int) -> list[WordModel]:
+    """The models of which the one with the shortest word is kept; the first where they tie."""
+    return [word_effort(level), load(DEFAULT_TABLE)]
+
+
+def guaranteed_by(model: WordModel) -> AnyTable:
+    """The table whose certificate bounds a word: adaptive models are kept where shorter."""
+    return model if isinstance(model, AnyTable) else load(DEFAULT_TABLE)

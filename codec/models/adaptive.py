@@ -1,0 +1,24 @@
+"""Adaptive models of the word: the alternatives to a table, by effort."""
+
+import enum
+import math
+
+
+class Effort(enum.IntEnum):
+    """How much work goes into each symbol; the numbers are those of Effort in the kernels."""
+
+    DIRECT = 1
+    FAST = 2
+    STRONG = 3
+
+    @property
+    def model_name(self) -> str:
+        """What statistics call it."""
+        return f"adaptive-{self.name.lower()}"
+
+
+# A decision's probability is at most this (least_share in codec/kernels/context_mixing.hpp), and
+# every symbol that is not determined takes one decision at least: more than 2^-12 bits.
+CHEAPEST_SYMBOL = math.log2(65536 / (65536 - 12))
+# Memory of the mixed models at their largest.
+STATE_BYTES = 40 << 20
