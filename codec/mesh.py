@@ -1,5 +1,6 @@
 """The mesh: arrays of vertices and triangles, and everything else that it carries, by name."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,6 +14,11 @@ INT32_VERTICES = 2**31
 # What can be coded: half-edges and vertices have indices of 32 bits inside the kernels.
 MAX_FACES = (2**31 - 1) // 3
 MAX_VERTICES = 2**31 - 1
+# Those of every numpy.
+MAX_DIMENSIONS = 32
+# Of the extents of one entry that are not zero: every numpy can make the array.
+MAX_ENTRY = 2**31
+NUMBERS = "biuf"  # kinds of dtypes
 
 
 def face_dtype(n_vertices: int) -> np.dtype[Any]:
@@ -49,7 +55,7 @@ class Mesh:
 
 
 def _vertices(values: npt.ArrayLike) -> npt.NDArray[Any]:
-    array = np.ascontiguousarray(values)
+    array = _native(np.ascontiguousarray(values))
     if array.size == 0 and array.ndim < 2:
         array = np.zeros((0, 3), np.float32)
     if array.dtype not in VERTEX_DTYPES:
@@ -61,6 +67,13 @@ def _vertices(values: npt.ArrayLike) -> npt.NDArray[Any]:
     if array.ndim != 2 or array.shape[1] != 3:
         raise MeshError(f"vertices: shape {array.shape} is not (n, 3)")
     return array
+
+
+def _native(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The same values in the byte order of this machine."""
+    if array.dtype.isnative:
+        return array
+    return array.byteswap().view(array.dtype.newbyteorder("="))
 
 
 def _faces(values: npt.ArrayLike, n_vertices: int) -> npt.NDArray[Any]:
@@ -86,7 +99,11 @@ def _attributes(
         array = np.ascontiguousarray(values)
         if array.ndim < 1 or len(array) != n:
             raise MeshError(f"{owner} attribute {name!r}: shape {array.shape} is not ({n}, ...)")
-        if array.dtype.kind not in "biuf":
+        if array.dtype.kind not in NUMBERS:
             raise MeshError(f"{owner} attribute {name!r}: dtype {array.dtype} is not a number")
-        checked[str(name)] = array
+        if array.ndim > MAX_DIMENSIONS:
+            raise MeshError(f"{owner} attribute {name!r}: more than {MAX_DIMENSIONS} dimensions")
+        if math.prod(filter(None, array.shape[1:])) >= MAX_ENTRY:
+            raise MeshError(f"{owner} attribute {name!r}: entries of shape {array.shape[1:]}")
+        checked[str(name)] = _native(array)
     return checked
