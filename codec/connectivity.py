@@ -4,7 +4,7 @@ The word codes oriented manifold pieces; where the mesh is not a manifold, sever
 pieces are one vertex of the mesh, and the gluing says which.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.errors import CorruptError, MeshError
+from ebz.codec.errors import CorruptError, MeshError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
@@ -120,12 +120,24 @@ def encode(
 
 
 def decode(
-    word: bytes, special_integers: bytes, gluing: bytes, counts: WordCounts, model: WordModel
+    word: bytes,
+    special_integers: bytes,
+    gluing: bytes,
+    counts: WordCounts,
+    model: WordModel,
+    *,
+    place: Callable[[str], str] = str,
 ) -> tuple[EncodedWord, Surface]:
-    """The symbols and the surface of an encoded word; raises CorruptError where they contradict."""
-    specials = _decode_specials(special_integers, counts)
-    symbols, opposite, piece_vertex, n_pieces = _decode_word(word, specials, counts, model)
-    vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
+    """The symbols and the surface of an encoded word; raises CorruptError where they contradict.
+
+    place: what errors call the parts of the file.
+    """
+    with corrupt_at(place("special S")):
+        specials = _decode_specials(special_integers, counts)
+    with corrupt_at(place("word")):
+        symbols, opposite, piece_vertex, n_pieces = _decode_word(word, specials, counts, model)
+    with corrupt_at(place("gluing")):
+        vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
     encoded = EncodedWord(counts, model, symbols, specials, word, special_integers, gluing)
     return encoded, Surface(opposite, piece_vertex, vertex_of_piece)
 
@@ -229,7 +241,7 @@ def _decode_specials(data: bytes, counts: WordCounts) -> Int64s:
     positions = from_gaps(gap)
     meets = ahead.astype(np.int64) + 2 * positions + 2
     if (np.diff(positions, prepend=-1) <= 0).any() or (positions >= counts.n_symbols).any():
-        raise CorruptError("special S: positions do not ascend within the word")
+        raise CorruptError("positions do not ascend within the word")
     return np.column_stack([positions, meets]).reshape(-1)
 
 
@@ -243,11 +255,11 @@ def _decode_gluing(data: bytes, n_copies: int, n_pieces: int) -> Int32s:
     gap, steps = decode_columns(data, n_copies, 2)
     copies, vertices = from_gaps(gap), np.cumsum(unzigzag(steps))
     if (np.diff(copies, prepend=-1) <= 0).any() or (copies >= n_pieces).any():
-        raise CorruptError("gluing: copies do not ascend within the vertices of the pieces")
+        raise CorruptError("copies do not ascend within the vertices of the pieces")
     is_first = np.ones(n_pieces, bool)
     is_first[copies] = False
     number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
     if ((vertices < 0) | (vertices > number[copies])).any():
-        raise CorruptError("gluing: a copy of a vertex that is not yet there")
+        raise CorruptError("a copy of a vertex that is not yet there")
     number[copies] = vertices
     return number

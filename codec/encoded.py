@@ -1,6 +1,7 @@
 """The encoded mesh as a structure: what a container stores, before any byte is laid out."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +19,7 @@ class EncodedArray:
     dtype: np.dtype[Any]
     shape: tuple[int, ...]
     data: bytes
+    place: str = "attribute"
 
     @property
     def entry_size(self) -> int:
@@ -40,7 +42,10 @@ class Streams:
 
 @dataclass(frozen=True)
 class EncodedMesh:
-    """Everything from which `pipeline.decode` restores a mesh."""
+    """Everything from which `pipeline.decode` restores a mesh.
+
+    places: where the parts that errors speak of are in the file, by name.
+    """
 
     dtype: np.dtype[Any]
     counts: WordCounts
@@ -53,3 +58,8 @@ class EncodedMesh:
     face_attributes: list[EncodedArray] = field(default_factory=list)
     metadata: bytes = b""
     digest: bytes = b""
+    places: Mapping[str, str] = field(default_factory=dict)
+
+    def place(self, part: str) -> str:
+        """Where in the file a part is: chunk and offset, the part's name where there is no file."""
+        return self.places.get(part, part)

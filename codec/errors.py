@@ -1,5 +1,8 @@
 """The errors of ebz, told apart by what a caller can do about them."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class EbzError(Exception):
     """Anything that ebz reports about its input; the message names the place.
@@ -34,6 +37,15 @@ class TruncatedError(EbzError):
 
 class CorruptError(EbzError):
     """The data contradicts a checksum or itself; the message names chunk and offset."""
+
+
+@contextmanager
+def corrupt_at(place: str) -> Iterator[None]:
+    """Put the place in front of the message of a CorruptError that is raised within."""
+    try:
+        yield
+    except CorruptError as error:
+        raise CorruptError(f"{place}: {error.message}") from None
 
 
 class VersionError(EbzError):

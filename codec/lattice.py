@@ -80,8 +80,8 @@ class BoxLattice:
         return _to_integers(offsets / self.step if self.step else np.zeros_like(offsets))
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
-        exact: Floats = np.array(self.origin) + integers * self.step
-        return exact.astype(dtype)
+        moved: Floats = np.array(self.origin) + integers * self.step
+        return moved.astype(dtype)
 
 
 @dataclass(frozen=True)
@@ -116,21 +116,31 @@ class Points:
     exceptions: npt.NDArray[np.int64]
 
 
+# Whatever overflows or is not a number comes back different, and so becomes an exception.
+@np.errstate(all="ignore")
 def fit(coordinates: Floats, bits: int | None = None, max_error: float | None = None) -> Points:
     """The coordinates on the lattice asked for; without bits and max_error, nothing is lost.
 
     A lattice finer than the floats themselves gives way to one that loses nothing.
-    Raises MeshError where a coordinate that is not finite would have to be rounded.
+    Where something may be lost, the coordinates must be finite: see require_finite.
     """
     if bits is None and not max_error:
         return _lossless(coordinates)
-    _require_finite(coordinates)
     points = (
         _in_box(coordinates, bits) if bits is not None else _within(coordinates, max_error or 0.0)
     )
     return points or _lossless(coordinates)
 
 
+def require_finite(vertices: Floats) -> None:
+    """Raise MeshError, naming the first vertex that is not finite: it cannot be rounded."""
+    if not np.isfinite(vertices).all():
+        row, axis = np.argwhere(~np.isfinite(vertices))[0]
+        value = vertices[row, axis]
+        raise MeshError(f"vertex {row}: {'xyz'[axis]} is {value}, which cannot be quantised")
+
+
+@np.errstate(all="ignore")
 def restore(points: Points, dtype: np.dtype[Any], exact: Floats) -> Floats:
     """The (n, 3) coordinates that decoding yields; `exact` holds the exceptions in order."""
     coordinates = points.lattice.coordinates(points.integers, dtype)
@@ -182,7 +192,8 @@ def _box(coordinates: Floats, bits: int) -> BoxLattice | None:
 def _within(coordinates: Floats, max_error: float) -> Points | None:
     lattice = StepLattice(max_error)
     largest = float(np.abs(coordinates).max(initial=0))
-    if not lattice.step or largest / lattice.step > MAX_MULTIPLE:
+    # Multiples of an infinite step would not be numbers.
+    if not 0 < lattice.step < np.inf or largest / lattice.step > MAX_MULTIPLE:
         return None
     integers = lattice.integers(coordinates)
     decoded = lattice.coordinates(integers, coordinates.dtype)
@@ -190,13 +201,6 @@ def _within(coordinates: Floats, max_error: float) -> Points | None:
     if not np.array_equal(lattice.integers(decoded), integers):
         return None
     return Points(lattice, integers, np.flatnonzero(off))
-
-
-def _require_finite(coordinates: Floats) -> None:
-    if not np.isfinite(coordinates).all():
-        row, axis = np.argwhere(~np.isfinite(coordinates))[0]
-        value = coordinates[row, axis]
-        raise MeshError(f"vertex {row}: {'xyz'[axis]} is {value}, which cannot be quantised")
 
 
 def _to_integers(multiples: npt.NDArray[np.float64]) -> Integers:

@@ -22,10 +22,14 @@ def decode(data: bytes) -> dict[str, Any]:
     """The values; raises CorruptError where the bytes are not a JSON object."""
     try:
         metadata = json.loads(data.decode("utf-8", "surrogatepass"), object_hook=_from_json)
-    except (ValueError, RecursionError) as error:
-        raise CorruptError(f"metadata: {error}") from None
-    if not isinstance(metadata, dict):
-        raise CorruptError("metadata: not an object")
+        if not isinstance(metadata, dict):
+            raise CorruptError("not an object")
+        # What is decoded must be a mesh that can be encoded: nested too deep, for one, it cannot.
+        encode(metadata)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise CorruptError(str(error)) from None
+    except MeshError as error:
+        raise CorruptError(error.message) from None
     return metadata
 
 

@@ -11,7 +11,7 @@ from ebz.codec import _kernels, attributes, connectivity, lattice, metadata
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
-from ebz.codec.errors import CorruptError
+from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, word_models
@@ -47,6 +47,9 @@ def encode(
     model: of the word; None: the best of those of the level.
     """
     report = progress or _silent
+    mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
+    if bits is not None or max_error:
+        lattice.require_finite(mesh.vertices)
     report("connectivity", 0, N_STAGES)
     models = word_models(level) if model is None else [model]
     word, surface, order = connectivity.encode(mesh.faces, len(mesh.vertices), models)
@@ -88,30 +91,44 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     streams, counts = encoded.streams, encoded.counts
     report("connectivity", 0, N_STAGES)
     word, surface = connectivity.decode(
-        streams.word, streams.special_integers, streams.gluing, counts, encoded.model
+        streams.word,
+        streams.special_integers,
+        streams.gluing,
+        counts,
+        encoded.model,
+        place=encoded.place,
     )
     n_vertices = encoded.n_vertices
     if surface.vertex_of_piece.max(initial=-1) >= n_vertices:
-        raise CorruptError(f"the word has more vertices than the {n_vertices} declared")
+        raise CorruptError(f"{encoded.place('word')}: more vertices than the {n_vertices} declared")
     report("positions", 1, N_STAGES)
     integers = _decode_positions(surface, encoded)
-    points = Points(encoded.lattice, integers, _decode_exceptions(encoded, n_vertices))
     report("lattice", 2, N_STAGES)
-    exact = _decode_values(streams.exception_values, encoded)
+    with corrupt_at(encoded.place("exceptions")):
+        points = Points(encoded.lattice, integers, _decode_exceptions(encoded, n_vertices))
+        exact = _decode_values(streams.exception_values, encoded)
     vertices = lattice.restore(points, encoded.dtype, exact)
     report("attributes", 3, N_STAGES)
-    faces = surface.vertex.reshape(-1, 3)
+    with corrupt_at(encoded.place("rotations")):
+        faces = _rotate(surface.vertex.reshape(-1, 3), streams.rotations)
     mesh = Mesh(
         vertices=vertices,
-        faces=_rotate(faces, streams.rotations).astype(face_dtype(n_vertices), copy=False),
+        faces=faces.astype(face_dtype(n_vertices), copy=False),
         vertex_attributes=attributes.decode(encoded.vertex_attributes, n_vertices),
         face_attributes=attributes.decode(encoded.face_attributes, counts.n_faces),
-        metadata=metadata.decode(encoded.metadata) if encoded.metadata else {},
+        metadata=_decode_metadata(encoded),
     )
     report("done", N_STAGES, N_STAGES)
     if digest(mesh) != encoded.digest:
-        raise CorruptError("the digest of the decoded mesh is not the one stored")
+        raise CorruptError(
+            f"{encoded.place('digest')}: the digest of the decoded mesh is not the one stored"
+        )
     return Decoded(mesh, word, surface)
+
+
+def _decode_metadata(encoded: EncodedMesh) -> dict[str, Any]:
+    with corrupt_at(encoded.place("metadata")):
+        return metadata.decode(encoded.metadata) if encoded.metadata else {}
 
 
 def _silent(stage: str, done: int, total: int) -> None:
@@ -150,7 +167,7 @@ def _encode_values(exact: lattice.Floats) -> bytes:
 def _decode_values(data: bytes, encoded: EncodedMesh) -> lattice.Floats:
     little = encoded.dtype.newbyteorder("<")
     if len(data) != encoded.n_exceptions * little.itemsize:
-        raise CorruptError(f"exceptions: {len(data)} bytes for {encoded.n_exceptions} values")
+        raise CorruptError(f"{len(data)} bytes for {encoded.n_exceptions} values")
     return np.frombuffer(data, little).astype(encoded.dtype, copy=False)
 
 
@@ -158,7 +175,7 @@ def _decode_exceptions(encoded: EncodedMesh, n_vertices: int) -> npt.NDArray[np.
     (gap,) = decode_columns(encoded.streams.exception_rows, encoded.n_exceptions, 1)
     rows = from_gaps(gap)
     if (np.diff(rows, prepend=-1) <= 0).any() or (rows >= 3 * n_vertices).any():
-        raise CorruptError("exceptions: rows do not ascend within the coordinates")
+        raise CorruptError("rows do not ascend within the coordinates")
     return rows
 
 
@@ -174,7 +191,7 @@ def _rotate(faces: npt.NDArray[np.int32], rotations: bytes | None) -> npt.NDArra
         return faces
     (first,) = decode_columns(rotations, len(faces), 1)
     if (first > 2).any():
-        raise CorruptError("rotations: a face has three corners only")
+        raise CorruptError("a face has three corners only")
     corners = (first.astype(np.intp)[:, None] + np.arange(3)) % 3
     return np.take_along_axis(faces, corners, axis=1)
 
