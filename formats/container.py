@@ -1,12 +1,13 @@
 """.ebz bytes <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from ebz.codec.connectivity import WordCounts
 from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
-from ebz.codec.errors import CorruptError, VersionError
+from ebz.codec.errors import CorruptError, VersionError, corrupt_at
 from ebz.codec.lattice import (
     MAX_BITS,
     MAX_DIGITS,
@@ -18,14 +19,12 @@ from ebz.codec.lattice import (
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.load import AnyTable
-from ebz.formats import chunks, layout, tables
+from ebz.formats import chunks, layout, records, tables
 from ebz.formats.chunks import Chunk
 from ebz.formats.limits import check_declared_sizes
 
-SINGLE = {
-    layout.HEADER, layout.MODEL, layout.WORD, layout.SPECIALS, layout.GLUING, layout.POSITIONS,
-    layout.EXCEPTIONS, layout.ROTATIONS, layout.METADATA, layout.END,
-}  # fmt: skip
+# The order of chunks in a file.
+ORDER = list(layout.NAMES)
 REPEATED = {layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE}
 MAX_COUNT = 2**63
 
@@ -52,9 +51,9 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
     if streams.rotations is not None:
         parts.append(chunks.write(layout.ROTATIONS, streams.rotations))
     for array in encoded.vertex_attributes:
-        parts.append(chunks.write(layout.VERTEX_ATTRIBUTE, _attribute(array)))
+        parts.append(chunks.write(layout.VERTEX_ATTRIBUTE, records.attribute(array)))
     for array in encoded.face_attributes:
-        parts.append(chunks.write(layout.FACE_ATTRIBUTE, _attribute(array)))
+        parts.append(chunks.write(layout.FACE_ATTRIBUTE, records.attribute(array)))
     if encoded.metadata:
         parts.append(chunks.write(layout.METADATA, encoded.metadata))
     parts.append(chunks.write(layout.END, encoded.digest))
@@ -77,30 +76,52 @@ def read(data: memoryview, *, memory_limit: int) -> EncodedMesh:
     """
     found: dict[bytes, Chunk] = {}
     arrays: dict[bytes, list[EncodedArray]] = {kind: [] for kind in REPEATED}
-    for chunk in chunks.read(data):
+    for chunk in _in_order(data):
+        found[chunk.type] = chunk
         if chunk.type in REPEATED:
-            arrays[chunk.type].append(_parse_attribute(chunk))
-        elif chunk.type in SINGLE:
-            if chunk.type in found:
-                raise CorruptError(f"{chunk.where}: there is one already")
-            found[chunk.type] = chunk
-        elif not chunk.type.islower():
-            raise VersionError(f"{chunk.where}: unknown, and required to decode the file")
-        if layout.HEADER not in found:
-            raise CorruptError(f"{chunk.where}: the header does not come first")
+            array = records.parse_attribute(chunk)
+            if any(array.name == other.name for other in arrays[chunk.type]):
+                raise CorruptError(f"{chunk.where}: there is a {array.name!r} already")
+            arrays[chunk.type].append(array)
     encoded = _parse(found, arrays)
     check_declared_sizes(encoded, len(data), memory_limit)
     return encoded
 
 
+def _in_order(data: memoryview) -> Iterator[Chunk]:
+    """The chunks that this reader knows."""
+    last: Chunk | None = None
+    for chunk in chunks.read(data):
+        if chunk.type in ORDER:
+            if last:
+                _check_order(last, chunk)
+            elif chunk.type != layout.HEADER:
+                raise CorruptError(f"{chunk.where}: the header does not come first")
+            yield (last := chunk)
+        elif not chunk.type.islower():
+            raise VersionError(f"{chunk.where}: unknown, and required to decode the file")
+
+
+def _check_order(last: Chunk, chunk: Chunk) -> None:
+    if chunk.type == last.type and chunk.type not in REPEATED:
+        raise CorruptError(f"{chunk.where}: there is one already")
+    if ORDER.index(chunk.type) < ORDER.index(last.type):
+        raise CorruptError(f"{chunk.where}: it must come before {last.where}")
+
+
 def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -> EncodedMesh:
-    header = layout.parse(layout.Header, found[layout.HEADER].payload, found[layout.HEADER].where)
-    _check_header(header)
+    with corrupt_at(found[layout.HEADER].where):
+        header = layout.parse(layout.Header, found[layout.HEADER].payload)
+        _check_header(header)
+        coordinates = _parse_lattice(header)
+    _check_presence(header, found)
 
     def payload(kind: bytes) -> bytes:
         return found[kind].payload if kind in found else b""
 
-    exceptions = layout.parse(layout.Exceptions, payload(layout.EXCEPTIONS) or b"\0", "exceptions")
+    places = {layout.NAMES[kind]: chunk.where for kind, chunk in found.items()}
+    with corrupt_at(places.get("exceptions", "exceptions")):
+        exceptions = layout.parse(layout.Exceptions, payload(layout.EXCEPTIONS) or b"\0")
     return EncodedMesh(
         dtype=np.dtype(f"f{header.itemsize}"),
         counts=WordCounts(
@@ -108,7 +129,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         ),
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
-        lattice=_parse_lattice(header),
+        lattice=coordinates,
         model=tables.read(header.model, found.get(layout.MODEL)),
         streams=Streams(
             word=payload(layout.WORD),
@@ -123,6 +144,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         face_attributes=arrays[layout.FACE_ATTRIBUTE],
         metadata=payload(layout.METADATA),
         digest=payload(layout.END),
+        places=places,
     )
 
 
@@ -148,36 +170,54 @@ def _header(encoded: EncodedMesh, model: int) -> bytes:
 
 def _check_header(header: Any) -> None:
     if header.itemsize not in layout.DTYPE_SIZES:
-        raise CorruptError(f"header: coordinates of {header.itemsize} bytes")
+        raise CorruptError(f"coordinates of {header.itemsize} bytes")
     if header.lattice >= len(layout.LATTICE_KINDS):
         raise VersionError(f"header: unknown lattice {header.lattice}")
     for name, count in header.items():
         if name.startswith("n_") and count >= MAX_COUNT:
-            raise CorruptError(f"header: {name} is {count}, past the limit of 2^63")
+            raise CorruptError(f"{name} is {count}, past the limit of 2^63")
     if header.n_vertices >= MAX_VERTICES:
-        raise CorruptError(f"header: {header.n_vertices} vertices, past the limit of 2^31 - 1")
+        raise CorruptError(f"{header.n_vertices} vertices, past the limit of 2^31 - 1")
     if header.n_symbols + header.n_closed > MAX_FACES:
-        raise CorruptError(f"header: more faces than the limit of {MAX_FACES}")
+        raise CorruptError(f"more faces than the limit of {MAX_FACES}")
     if header.n_closed + header.n_single > header.n_symbols:
-        raise CorruptError("header: more components than symbols")
+        raise CorruptError("more components than symbols")
+
+
+def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
+    """A chunk is there where the header says that it holds something, and not otherwise."""
+    needed = {
+        layout.MODEL: header.model == layout.INLINE_MODEL,
+        layout.WORD: header.n_symbols > 0,
+        layout.SPECIALS: header.n_specials > 0,
+        layout.GLUING: header.n_copies > 0,
+        layout.POSITIONS: header.n_vertices > 0,
+        layout.EXCEPTIONS: header.n_exceptions > 0,
+    }
+    for kind, is_needed in needed.items():
+        if is_needed and kind not in found:
+            name, where = layout.NAMES[kind], found[layout.HEADER].where
+            raise CorruptError(f"{where}: it calls for a {name} chunk, which is missing")
+        if kind in found and not is_needed:
+            raise CorruptError(f"{found[kind].where}: the header has no use for it")
 
 
 def _parse_lattice(header: Any) -> Lattice:
     kind, parameters = layout.LATTICE_KINDS[header.lattice], header.parameters
     if kind == "decimal":
         if parameters.digits > MAX_DIGITS[header.itemsize]:
-            raise CorruptError(f"header: a lattice of {parameters.digits} decimals")
+            raise CorruptError(f"a lattice of {parameters.digits} decimals")
         return DecimalLattice(parameters.digits)
     if kind == "box":
         origin = tuple(parameters.origin)
         if not 1 <= parameters.bits <= MAX_BITS:
-            raise CorruptError(f"header: a lattice of {parameters.bits} bits")
+            raise CorruptError(f"a lattice of {parameters.bits} bits")
         if not np.isfinite([*origin, parameters.side]).all():
-            raise CorruptError("header: the box of the lattice is not finite")
+            raise CorruptError("the box of the lattice is not finite")
         return BoxLattice(parameters.bits, origin, parameters.side)
     if kind == "step":
         if not np.isfinite(parameters.max_error) or parameters.max_error <= 0:
-            raise CorruptError(f"header: a maximal error of {parameters.max_error}")
+            raise CorruptError(f"a maximal error of {parameters.max_error}")
         return StepLattice(parameters.max_error)
     return FloatLattice()
 
@@ -185,28 +225,3 @@ def _parse_lattice(header: Any) -> Lattice:
 def _exceptions(streams: Streams) -> bytes:
     values = {"rows": streams.exception_rows, "exact": streams.exception_values}
     return layout.build(layout.Exceptions, values)
-
-
-def _attribute(array: EncodedArray) -> bytes:
-    return layout.build(
-        layout.Attribute,
-        {
-            "name": array.name.encode("utf-8", "surrogatepass"),
-            "kind": array.dtype.kind.encode(),
-            "itemsize": array.dtype.itemsize,
-            "shape": array.shape,
-            "data": array.data,
-        },
-    )
-
-
-def _parse_attribute(chunk: Chunk) -> EncodedArray:
-    parsed = layout.parse(layout.Attribute, chunk.payload, chunk.where)
-    try:
-        dtype = np.dtype(f"{parsed.kind.decode('ascii')}{parsed.itemsize}")
-        name = parsed.name.decode("utf-8", "surrogatepass")
-    except (TypeError, ValueError) as error:
-        raise CorruptError(f"{chunk.where}: {error}") from None
-    if dtype.kind not in "biuf" or len(parsed.shape) > 31:
-        raise CorruptError(f"{chunk.where}: not an array of numbers")
-    return EncodedArray(name, dtype, tuple(parsed.shape), parsed.data)

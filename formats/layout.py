@@ -6,25 +6,31 @@ from construct import (
     Array,
     Byte,
     Bytes,
+    Check,
     ConstructError,
+    ExprAdapter,
     Float32l,
     Float64l,
     GreedyBytes,
+    If,
     IfThenElse,
     Int8ul,
     Int16ul,
     Int32ul,
+    IntegerError,
     Pass,
     Prefixed,
     PrefixedArray,
+    RepeatUntil,
     Struct,
     Switch,
-    VarInt,
+    Terminated,
     this,
 )
 
 from ebz.codec.errors import CorruptError
 from ebz.codec.models.adaptive import Effort
+from ebz.codec.models.table import MAX_STATES
 
 Malformed = ConstructError
 
@@ -50,6 +56,28 @@ NAMES = {
     METADATA: "metadata",
     END: "digest",
 }
+
+# Seven bits a byte, the lowest first, all bytes but the last with the highest bit set.  The limit
+# keeps the time of reading one constant.
+MAX_VARINT = 10
+
+
+def _from_sevens(sevens: list[int], _: Any) -> int:
+    if sevens[-1] >= 0x80:
+        raise IntegerError(f"an integer of more than {MAX_VARINT} bytes")
+    return sum((byte & 0x7F) << 7 * i for i, byte in enumerate(sevens))
+
+
+def _to_sevens(value: int, _: Any) -> list[int]:
+    n = max(1, -(-value.bit_length() // 7))
+    return [value >> 7 * i & 0x7F | (0x80 if i < n - 1 else 0) for i in range(n)]
+
+
+VarInt = ExprAdapter(
+    RepeatUntil(lambda byte, bytes, _: byte < 0x80 or len(bytes) == MAX_VARINT, Byte),
+    _from_sevens,
+    _to_sevens,
+)
 
 ChunkHead = Struct("type" / Bytes(1), "length" / VarInt)
 CRC32 = Int32ul
@@ -82,6 +110,7 @@ Header = Struct(
             LATTICE_KINDS.index("step"): Struct("max_error" / Float64l),
         },
     ),
+    If(this.lattice < len(LATTICE_KINDS), Terminated),
 )
 
 # Model 0 is the table of the file's model chunk; the other models are built in and never change.
@@ -95,20 +124,24 @@ Frequencies = Array(this.n_rows, Array(4, Int16ul))  # of C, L, R, S; E has what
 Automaton = Struct(
     "name" / Prefixed(VarInt, GreedyBytes),
     "n_rows" / VarInt,
+    Check(this.n_rows <= MAX_STATES),
     "frequencies" / Frequencies,
     "successors"
     / Array(this.n_rows, Array(5, IfThenElse(this._root.n_rows <= 256, Int8ul, Int16ul))),
+    Terminated,
 )
 
 Stack = Struct(
     "name" / Prefixed(VarInt, GreedyBytes),
     "n_rows" / VarInt,
+    Check(this.n_rows <= MAX_STATES),
     "frequencies" / Frequencies,
     "n_conflicts" / Byte,
     "top" / Prefixed(VarInt, GreedyBytes),
     "n_lengths" / Byte,
     "step" / Prefixed(VarInt, GreedyBytes),
     "bottom" / Byte,
+    Terminated,
 )
 
 Exceptions = Struct("rows" / Prefixed(VarInt, GreedyBytes), "exact" / GreedyBytes)
@@ -127,10 +160,10 @@ def build(declaration: Any, values: Any) -> bytes:
     return bytes(declaration.build(values))
 
 
-def parse(declaration: Any, payload: bytes, what: str) -> Any:
-    """The values of a declared structure; raises CorruptError where the payload is too short."""
+def parse(declaration: Any, payload: bytes) -> Any:
+    """The values of a declared structure; raises CorruptError where the payload does not fit."""
     try:
         return declaration.parse(payload)
     except ConstructError as error:
         reason = str(error).splitlines()[-1]
-        raise CorruptError(f"{what}: {reason}") from None
+        raise CorruptError(reason) from None

@@ -3,7 +3,7 @@
 import math
 
 from ebz.codec.encoded import EncodedArray, EncodedMesh
-from ebz.codec.errors import CorruptError, MemoryLimitError
+from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, STATE_BYTES
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
@@ -16,22 +16,27 @@ DEFAULT_MEMORY_LIMIT = 4 << 30
 # Memory that decoding takes at its peak, measured and rounded up.
 BYTES_PER_FACE = 160
 BYTES_PER_VERTEX = 160
+BYTES_PER_INTEGER = 128
 
 
 def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) -> None:
     """Raise CorruptError where a count exceeds its stream, MemoryLimitError past the limit."""
     counts, streams = encoded.counts, encoded.streams
-    _check_symbols(encoded)
-    _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
-    _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
-    _check("vertices", encoded.n_vertices, 3 * CHEAPEST_BIT, streams.positions)
-    _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
+    with corrupt_at(encoded.place("header")):
+        _check_symbols(encoded)
+        _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
+        _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
+        _check("vertices", encoded.n_vertices, 3 * CHEAPEST_BIT, streams.positions)
+        _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
     if streams.rotations is not None:
-        _check("rotations", counts.n_faces, CHEAPEST_BIT, streams.rotations)
+        with corrupt_at(encoded.place("rotations")):
+            _check("rotations", counts.n_faces, CHEAPEST_BIT, streams.rotations)
+    n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
     size = 0 if isinstance(encoded.model, AnyTable) else STATE_BYTES
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
     size += _arrays_size(encoded.face_attributes, counts.n_faces)
-    size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices + 2 * n_bytes
+    size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices
+    size += BYTES_PER_INTEGER * n_integers + 2 * n_bytes
     if size > memory_limit:
         raise MemoryLimitError(
             f"decoding takes up to {size:,} bytes of memory, past the limit of {memory_limit:,}"
@@ -54,13 +59,14 @@ def _check_symbols(encoded: EncodedMesh) -> None:
 def _check(what: str, count: int, bits_each: float, stream: bytes) -> None:
     available = 8 * len(stream) + SLACK_BITS if stream else 0
     if count * bits_each > available * (1 + 1e-9):
-        raise CorruptError(f"header: {count} {what} do not fit in {len(stream)} bytes")
+        raise CorruptError(f"{count} {what} do not fit in {len(stream)} bytes")
 
 
 def _arrays_size(arrays: list[EncodedArray], n: int) -> int:
     size = 0
     for array in arrays:
         entry = array.entry_size
-        _check(f"bytes of attribute {array.name!r}", n * entry, 8 * CHEAPEST_BIT, array.data)
+        with corrupt_at(array.place):
+            _check(f"bytes of {array.name!r}", n * entry, 8 * CHEAPEST_BIT, array.data)
         size += 3 * n * entry
     return size

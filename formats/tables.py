@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.connectivity import WordModel
-from ebz.codec.errors import CorruptError, OptionError, VersionError
+from ebz.codec.errors import CorruptError, OptionError, VersionError, corrupt_at
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.stack import StackTable
@@ -53,24 +53,24 @@ def read(number: int, chunk: Chunk | None) -> WordModel:
         if number not in layout.MODELS:
             raise VersionError(f"header: unknown model {number}")
         return load(layout.MODELS[number])
-    if chunk is None:
-        raise CorruptError("header: the file's own model is missing")
-    try:
-        table = _parse(chunk)
-        table.check()
-    except (OptionError, ValueError) as error:
-        raise CorruptError(f"{chunk.where}: {error}") from None
+    assert chunk is not None, "the container checks that it is there"
+    with corrupt_at(chunk.where):
+        try:
+            table = _parse(chunk)
+            table.check()
+        except (OptionError, ValueError) as error:
+            raise CorruptError(str(error)) from None
     return table
 
 
 def _parse(chunk: Chunk) -> AnyTable:
     kind, body = chunk.payload[:1], chunk.payload[1:]
     if kind == bytes([layout.AUTOMATON]):
-        parsed = layout.parse(layout.Automaton, body, chunk.where)
+        parsed = layout.parse(layout.Automaton, body)
         successors = np.array(parsed.successors, np.uint16).reshape(-1, 5)
         return Table(_name(parsed), _frequencies(parsed), successors)
     if kind == bytes([layout.STACK]):
-        parsed = layout.parse(layout.Stack, body, chunk.where)
+        parsed = layout.parse(layout.Stack, body)
         top = np.frombuffer(parsed.top, np.uint8).reshape(-1, parsed.n_conflicts)
         step = np.frombuffer(parsed.step, np.uint8).reshape(-1, parsed.n_lengths)
         return StackTable(_name(parsed), _frequencies(parsed), top, step, parsed.bottom)
@@ -78,7 +78,7 @@ def _parse(chunk: Chunk) -> AnyTable:
 
 
 def _name(parsed: Any) -> str:
-    return bytes(parsed.name).decode("utf-8", "surrogatepass")
+    return bytes(parsed.name).decode("utf-8", "backslashreplace")
 
 
 def _frequencies(parsed: Any) -> npt.NDArray[np.uint32]:
