@@ -66,7 +66,13 @@ def decompress(
 
 def parse(data: BytesLike, memory_limit: int) -> EncodedMesh:
     """The structure of an .ebz file, its declared sizes checked."""
-    return container.read(memoryview(data).cast("B"), memory_limit=memory_limit)
+    return container.read(as_bytes(data), memory_limit=memory_limit)
+
+
+def as_bytes(data: BytesLike) -> memoryview:
+    """A view of anything bytes-like, byte by byte."""
+    view = memoryview(data)
+    return view.cast("B") if view.c_contiguous else memoryview(view.tobytes())
 
 
 def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:

@@ -6,7 +6,7 @@ from ebz.codec.levels import guaranteed_by
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.statistics import Stats
-from ebz.coding import BytesLike, compress, parse
+from ebz.coding import BytesLike, as_bytes, compress, parse
 from ebz.formats import container
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
@@ -17,7 +17,7 @@ def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -
     Raises what decompress raises.
     """
     content = compress(data) if isinstance(data, Mesh) else data
-    view = memoryview(content).cast("B")
+    view = as_bytes(content)
     encoded = parse(view, memory_limit)
     decoded = pipeline.decode(encoded)
     guarantee = guaranteed_bits(guaranteed_by(encoded.model))
