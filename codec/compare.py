@@ -83,9 +83,12 @@ def allowed_error(lattice: Lattice, original: Mesh) -> float:
     if isinstance(lattice, StepLattice):
         return lattice.max_error
     if isinstance(lattice, BoxLattice):
-        # Half a step, and half the spacing of the floats at the largest coordinate.
-        largest = np.abs(original.vertices).max(initial=0)
-        return lattice.step / 2 * (1 + 1e-9) + float(np.spacing(largest)) / 2
+        # Half a step, half the spacing of the floats there, and a few roundings of doubles.
+        largest = float(np.abs(original.vertices).max(initial=0))
+        floats, doubles = np.finfo(original.vertices.dtype), np.finfo(np.float64)
+        spacing = float(floats.eps) * largest + float(floats.eps) * lattice.step
+        rounding = 4 * float(doubles.eps) * (largest + lattice.side)
+        return lattice.step / 2 + spacing / 2 + rounding + float(floats.smallest_subnormal)
     return 0.0
 
 

@@ -181,9 +181,9 @@ def _in_box(coordinates: Floats, bits: int) -> Points | None:
 def _box(coordinates: Floats, bits: int) -> BoxLattice | None:
     if not len(coordinates):
         return None
-    # Adding zero turns -0.0 into 0.0: which of the two a minimum yields depends on the order.
+    # Adding zero turns -0.0 into 0.0: which of the two an extreme is depends on the order.
     low = coordinates.min(axis=0).astype(np.float64) + 0.0
-    side = float((coordinates.max(axis=0).astype(np.float64) - low).max())
+    side = float((coordinates.max(axis=0).astype(np.float64) - low).max()) + 0.0
     if not np.isfinite(side):
         return None
     return BoxLattice(bits, (float(low[0]), float(low[1]), float(low[2])), side)

@@ -49,7 +49,8 @@ def _layout(mesh: Mesh) -> tuple[Any, ...]:
 
 
 def _vertex_keys(mesh: Mesh) -> list[Hashable]:
-    return _rows({"": mesh.vertices} | mesh.vertex_attributes)
+    attributes = _rows(mesh.vertex_attributes) or [()] * len(mesh.vertices)
+    return list(zip(_rows({"": mesh.vertices}), attributes, strict=True))
 
 
 def _rows(attributes: Attributes) -> list[Hashable]:
