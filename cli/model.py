@@ -36,14 +36,18 @@ def model() -> None:
 @as_json
 def list_models(as_json: bool) -> None:
     """List the built-in models with their guaranteed bits per vertex."""
-    from ebz.codec.models.certify import certify
+    from ebz.codec.models.guarantee import guaranteed_bits
     from ebz.codec.models.load import load
     from ebz.codec.models.table import table_names
 
-    found = [certify(load(name)) for name in table_names()]
+    tables = {name: load(name) for name in table_names()}
     rows = {
-        c.model: {"kind": c.kind, "contexts": c.contexts, "bits_per_vertex": c.bits_per_vertex}
-        for c in found
+        name: {
+            "kind": table.kind,
+            "contexts": len(table.frequencies),
+            "bits_per_vertex": guaranteed_bits(table),
+        }
+        for name, table in tables.items()
     }
     _print(rows, as_json)
 
@@ -103,15 +107,15 @@ def fit(output: str, force: bool, as_json: bool, **limits: Any) -> None:
 @force
 @as_json
 def figure(number: str, output: str | None, force: bool, as_json: bool) -> None:
-    """Reproduce figure 1, 2 or 4 of the paper, as a drawing or as its numbers.
+    """Reproduce figure 1, 2 or 4 of the paper, as a drawing or (without -o) as its numbers.
 
     \b
     1  probabilities and word counts of the golden-mean language
     2  its bits per symbol under a constraint on one symbol
     4  bits per vertex and growth of loop automata against their number of states
     """
-    if (output is None) == (not as_json):
-        raise click.UsageError("Give -o FILE or --json.")
+    if output is not None and as_json:
+        raise click.UsageError("-o FILE and --json exclude each other.")
     if output is None:
         from ebz.codec.models.theory import FIGURES
 
@@ -154,9 +158,11 @@ def _print(result: dict[str, Any], as_json: bool) -> None:
         if isinstance(value, dict) and all(isinstance(cell, dict) for cell in value.values()):
             click.echo()
             _print_rows(value)
+        elif isinstance(value, list):
+            _print_rows({str(number): row for number, row in enumerate(value, 1)})
         elif isinstance(value, dict):
             click.echo(f"{name:{width}}  " + "  ".join(f"{k} {_text(v)}" for k, v in value.items()))
-        else:
+        elif value is not None:
             click.echo(f"{name:{width}}  {_text(value)}")
 
 
@@ -165,13 +171,12 @@ def _print_rows(rows: dict[str, dict[str, Any]]) -> None:
     names = list(next(iter(rows.values())))
     first = max(map(len, rows))
     cells = {row: [_text(values[name]) for name in names] for row, values in rows.items()}
-    widths = [
-        max(len(name), *(len(row[i]) for row in cells.values())) for i, name in enumerate(names)
-    ]
+    lines = [names, *cells.values()]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(names))]
     for label, row in {"": names, **cells}.items():
         columns = (f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True))
         click.echo(f"{label:{first}}  " + "  ".join(columns))
 
 
 def _text(value: Any) -> str:
-    return f"{value:.4f}" if isinstance(value, float) else str(value)
+    return f"{value:.5f}" if isinstance(value, float) else str(value)

@@ -3,7 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from math import ceil
 from typing import Any
+
+# Certified prices have five decimals.
+UNITS_PER_BIT = 100_000
+
+
+def rounded_up(bits: float) -> float:
+    """The bits with five decimals, none too few."""
+    return ceil(bits * UNITS_PER_BIT) / UNITS_PER_BIT
 
 
 @dataclass(frozen=True)

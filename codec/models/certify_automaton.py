@@ -24,7 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.errors import OptionError
-from ebz.codec.models.certificate import Band, Certificate
+from ebz.codec.models.certificate import Band, Certificate, rounded_up
 from ebz.codec.models.language import N_CHECKED_TRIANGLES, check_stacks
 from ebz.codec.models.loops import UNBOUNDED, UNKNOWN, State, canonical, successors
 from ebz.codec.models.table import FREQUENCY_BITS, C, E, S, Table
@@ -189,7 +189,8 @@ def _upper(moves: _Transitions) -> tuple[Floats, float, float, float]:
     # The solver's inequalities hold to its tolerance; the certificate's hold exactly.
     violation = max(0.0, float((moves.matrix(columns) @ x + moves.cost).max())) + TOLERANCE
     n = moves.n_states
-    return x[:n], float(x[n]) + violation, float(x[n + 1]) + violation, float(x[n + 2])
+    c_c, c_other = rounded_up(float(x[n]) + violation), rounded_up(float(x[n + 1]) + violation)
+    return x[:n], c_c, c_other, float(x[n + 2])
 
 
 def _lower(moves: _Transitions, c_c: float, c_other: float) -> tuple[Floats, float, float]:

@@ -26,7 +26,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.errors import OptionError
-from ebz.codec.models.certificate import Certificate
+from ebz.codec.models.certificate import Certificate, rounded_up
 from ebz.codec.models.stack import SHORTEST, StackTable
 from ebz.codec.models.table import FREQUENCY_BITS, SYMBOLS, C, E, L, R, S
 
@@ -91,13 +91,14 @@ def certify_stack(table: StackTable) -> Certificate:
     further = _fall_per_component(kinds, phi)
     first = max(_fall_onto(kinds, phi, start, kinds.lengths[-1], table.bottom) - further, 0)
     special = _special(kinds, phi, code)
+    bits_per_c, bits_per_other = rounded_up(price[C] / UNIT), rounded_up(other / UNIT)
     return Certificate(
         model=table.name,
         kind=table.kind,
         contexts=len(table.frequencies),
-        bits_per_vertex=(price[C] + other) / UNIT,
-        bits_per_c=price[C] / UNIT,
-        bits_per_other=other / UNIT,
+        bits_per_vertex=bits_per_c + bits_per_other,
+        bits_per_c=bits_per_c,
+        bits_per_other=bits_per_other,
         prices={letter: price[s] / UNIT for s, letter in enumerate(SYMBOLS)},
         bits_per_word=first / UNIT,
         bits_per_component=(further + price[E] - other) / UNIT,

@@ -26,7 +26,7 @@ from ebz.codec.models.solvers import (
     sparse_rows,
 )
 
-GRADIENT_TOLERANCE = 1e-10
+GRADIENT_TOLERANCE = 1e-8
 # Beyond this a minimisation has run away: weights of e^40 to one.
 MAX_MULTIPLIER = 40.0
 # From here on a linear program is asked whether there is a minimum at all.

@@ -60,6 +60,7 @@ def test_every_word_is_accepted(limits: tuple[int, int, int]) -> None:
 def test_the_redirect_rejects_the_word_of_a_mesh() -> None:
     faces = mesh_of(REJECTED)
     assert is_closed_sphere(faces)
+    assert (len(faces), len(set().union(*map(set, faces)))) == (10, 7)
     assert accepts(loop_automaton(2, 6, 6), REJECTED)
     assert not accepts(redirected_automaton(2, 6), REJECTED)
 

@@ -92,9 +92,8 @@ def test_no_word_costs_more_than_certified(
     assert cost(TABLE, word, special) <= most
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_certificates_hold_for_any_table(seed: int) -> None:
-    table = perturbed(seed)
+def test_certificates_hold_for_any_table() -> None:
+    table = perturbed(1)
     found = certify_stack(table)
     for word_seed in range(5):
         word, special = random_word(random.Random(word_seed), 400, [1.0] * 5, 0.02)
