@@ -1,4 +1,4 @@
-"""Adaptive models of the word: the same symbols come back, in few bits, from any bytes in bounds."""
+"""Adaptive models of the word: symbols come back, in few bits, and from any bytes in bounds."""
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +11,7 @@ from ebz.codec.connectivity import EncodedWord
 from ebz.codec.errors import CorruptError
 from ebz.codec.levels import DEFAULT_TABLE, LEVELS, word_models
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, Effort
-from ebz.codec.models.table import Table
+from ebz.codec.models.load import load
 from tests import meshes
 from tests.surgery import Faces, n_used
 
@@ -53,7 +53,7 @@ def test_no_level_takes_more_than_the_certified_table(faces: Faces, level: int) 
     ids=["random", "sphere", "torus", "grid"],
 )
 def test_words_are_short(effort: Effort, mesh: sample.Mesh, bits_per_vertex: float) -> None:
-    adaptive, table = (encode(mesh.faces, model) for model in (effort, Table.load(DEFAULT_TABLE)))
+    adaptive, table = (encode(mesh.faces, model) for model in (effort, load(DEFAULT_TABLE)))
     assert 8 * len(adaptive.word) < bits_per_vertex * len(mesh.vertices)
     if bits_per_vertex < 1:
         assert len(adaptive.word) < len(table.word) / 10
