@@ -11,7 +11,7 @@ KERNELS = Path("codec/kernels")
 NANOBIND = Path(nanobind.__file__).parent
 
 # setuptools wants sources below this folder or as given; nanobind's are compiled as they are.
-sources = sorted(str(path) for path in KERNELS.glob("*.cpp"))
+sources = sorted(str(path) for path in KERNELS.rglob("*.cpp"))
 nanobind_source = os.path.relpath(NANOBIND / "src" / "nb_combined.cpp")
 link_args = [] if sys.platform == "darwin" else ["-Wl,-s"]
 
@@ -20,7 +20,7 @@ setup(
         Extension(
             "ebz.codec._kernels",
             sources=[*sources, nanobind_source],
-            depends=sorted(str(path) for path in KERNELS.glob("*.hpp")),
+            depends=sorted(str(path) for path in KERNELS.rglob("*.hpp")),
             include_dirs=[
                 nanobind.include_dir(),
                 str(NANOBIND / "ext" / "robin_map" / "include"),

@@ -9,6 +9,7 @@ import numpy as np
 
 from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
+from ebz.codec.positions import Method
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,7 @@ class EncodedMesh:
     n_vertices: int
     n_exceptions: int
     lattice: Lattice
+    method: Method
     model: WordModel
     streams: Streams
     vertex_attributes: list[EncodedArray] = field(default_factory=list)

@@ -3,6 +3,7 @@
 from ebz.codec.connectivity import WordModel
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
+from ebz.codec.positions import Method
 
 LEVELS = range(1, 10)
 DEFAULT_LEVEL = 6
@@ -20,6 +21,13 @@ def word_effort(level: int) -> Effort:
 def word_models(level: int) -> list[WordModel]:
     """The models of which the one with the shortest word is kept; the first where they tie."""
     return [word_effort(level), load(DEFAULT_TABLE)]
+
+
+def position_method(level: int) -> Method:
+    """How positions are coded."""
+    if level < 3:
+        return Method.FAST
+    return Method.LIGHT if level < 7 else Method.STRONG
 
 
 def guaranteed_by(model: WordModel) -> AnyTable:

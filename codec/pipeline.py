@@ -7,21 +7,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels, attributes, connectivity, lattice, metadata
+from ebz.codec import attributes, connectivity, lattice, metadata, positions
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
-from ebz.codec.levels import DEFAULT_LEVEL, word_models
+from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
 from ebz.codec.mesh import Mesh, face_dtype
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
-
-# How the kernels know the space in which predictions are made (Space in positions.hpp).
-LATTICE_SPACE, FLOAT32_SPACE, FLOAT64_SPACE = range(3)
 
 
 @dataclass(frozen=True)
@@ -57,7 +54,7 @@ def encode(
     coordinates = mesh.vertices[order.vertices]
     points = lattice.fit(coordinates, bits, max_error)
     report("positions", 2, N_STAGES)
-    positions = _encode_positions(surface, points, coordinates.dtype)
+    stream, method = positions.encode(surface, points, coordinates.dtype, position_method(level))
     exact = coordinates.reshape(-1)[points.exceptions]
     report("attributes", 3, N_STAGES)
     encoded = EncodedMesh(
@@ -66,12 +63,13 @@ def encode(
         n_vertices=len(coordinates),
         n_exceptions=len(points.exceptions),
         lattice=points.lattice,
+        method=method,
         model=word.model,
         streams=Streams(
             word=word.word,
             special_integers=word.special_integers,
             gluing=word.gluing,
-            positions=positions,
+            positions=stream,
             exception_rows=encode_columns(gaps(points.exceptions)),
             exception_values=_encode_values(exact),
             rotations=_encode_rotations(mesh, order),
@@ -102,7 +100,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     if surface.vertex_of_piece.max(initial=-1) >= n_vertices:
         raise CorruptError(f"{encoded.place('word')}: more vertices than the {n_vertices} declared")
     report("positions", 1, N_STAGES)
-    integers = _decode_positions(surface, encoded)
+    integers = positions.decode(streams.positions, surface, n_vertices, encoded.method)
     report("lattice", 2, N_STAGES)
     with corrupt_at(encoded.place("exceptions")):
         points = Points(encoded.lattice, integers, _decode_exceptions(encoded, n_vertices))
@@ -133,31 +131,6 @@ def _decode_metadata(encoded: EncodedMesh) -> dict[str, Any]:
 
 def _silent(stage: str, done: int, total: int) -> None:
     pass
-
-
-def _space(encoded_lattice: lattice.Lattice, dtype: np.dtype[Any]) -> int:
-    if encoded_lattice.kind != "float":
-        return LATTICE_SPACE
-    return FLOAT32_SPACE if dtype.itemsize == 4 else FLOAT64_SPACE
-
-
-def _encode_positions(surface: Surface, points: Points, dtype: np.dtype[Any]) -> bytes:
-    values, space = points.integers.reshape(-1), _space(points.lattice, dtype)
-    return _kernels.encode_positions(
-        surface.opposite, surface.vertex, len(points.integers), values, space
-    )
-
-
-def _decode_positions(surface: Surface, encoded: EncodedMesh) -> lattice.Integers:
-    data = np.frombuffer(encoded.streams.positions, np.uint8)
-    values = _kernels.decode_positions(
-        data,
-        surface.opposite,
-        surface.vertex,
-        encoded.n_vertices,
-        _space(encoded.lattice, encoded.dtype),
-    )
-    return values.reshape(-1, 3)
 
 
 def _encode_values(exact: lattice.Floats) -> bytes:

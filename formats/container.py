@@ -19,6 +19,7 @@ from ebz.codec.lattice import (
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.load import AnyTable
+from ebz.codec.positions import FLOAT_METHODS, Method
 from ebz.formats import chunks, layout, records, tables
 from ebz.formats.chunks import Chunk
 from ebz.formats.limits import check_declared_sizes
@@ -130,6 +131,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
         lattice=coordinates,
+        method=_parse_method(header),
         model=tables.read(header.model, found.get(layout.MODEL)),
         streams=Streams(
             word=payload(layout.WORD),
@@ -162,6 +164,7 @@ def _header(encoded: EncodedMesh, model: int) -> bytes:
             "n_copies": counts.n_copies,
             "n_exceptions": encoded.n_exceptions,
             "model": model,
+            "method": encoded.method,
             "lattice": layout.LATTICE_KINDS.index(encoded.lattice.kind),
             "parameters": vars(encoded.lattice),
         },
@@ -200,6 +203,15 @@ def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
             raise CorruptError(f"{where}: it calls for a {name} chunk, which is missing")
         if kind in found and not is_needed:
             raise CorruptError(f"{found[kind].where}: the header has no use for it")
+
+
+def _parse_method(header: Any) -> Method:
+    in_floats = FLOAT_METHODS[header.itemsize]
+    if header.method in FLOAT_METHODS.values() and header.method != in_floats:
+        raise CorruptError(f"positions of {header.itemsize} bytes by method {header.method}")
+    if header.method not in list(Method):
+        raise VersionError(f"header: unknown method {header.method} of positions")
+    return Method(header.method)
 
 
 def _parse_lattice(header: Any) -> Lattice:

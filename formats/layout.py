@@ -97,6 +97,7 @@ Header = Struct(
     "n_copies" / VarInt,
     "n_exceptions" / VarInt,
     "model" / Byte,
+    "method" / Byte,
     "lattice" / Byte,
     "parameters"
     / Switch(

@@ -11,7 +11,7 @@
 #include "errors.hpp"
 #include "integers.hpp"
 #include "lattices.hpp"
-#include "positions.hpp"
+#include "positions/positions.hpp"
 #include "topology.hpp"
 
 namespace nb = nanobind;
@@ -137,18 +137,19 @@ void bind_word_coder(nb::module_& m) {
 }
 
 nb::bytes encode_positions(const Input<int32_t>& opposite, const Input<int32_t>& vertex, int32_t n_vertices,
-                           const Input<int64_t>& values, int space) {
-    const ebz::Surface surface{view(opposite), view(vertex), n_vertices};
-    return to_bytes(without_gil(
-        [&] { return ebz::encode_positions(surface, view(values), static_cast<ebz::Space>(space)); }));
+                           const Input<int64_t>& values, int method) {
+    const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
+    return to_bytes(without_gil([&] {
+        return ebz::positions::encode(surface, view(values), static_cast<ebz::positions::Method>(method));
+    }));
 }
 
 Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
-                                const Input<int32_t>& vertex, int32_t n_vertices, int space) {
-    const ebz::Surface surface{view(opposite), view(vertex), n_vertices};
+                                const Input<int32_t>& vertex, int32_t n_vertices, int method) {
+    const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
     return to_numpy(without_gil([&] {
         std::vector<int64_t> values(static_cast<size_t>(n_vertices) * 3);
-        ebz::decode_positions(view(bytes), surface, static_cast<ebz::Space>(space), values);
+        ebz::positions::decode(view(bytes), surface, static_cast<ebz::positions::Method>(method), values);
         return values;
     }));
 }
@@ -219,9 +220,9 @@ NB_MODULE(_kernels, m) {
     m.def("decode_adaptive", &decode_adaptive, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
           "specials"_a, "effort"_a, "What decode_connectivity gives, of a word under an adaptive model.");
     m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
-          "space"_a, "The bytes of 3n lattice values along a surface.");
+          "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
-          "space"_a, "The 3n lattice values.");
+          "method"_a, "The 3n lattice values.");
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
           "The fewest decimals that all values but max_misses have, -1 if there are too many.");

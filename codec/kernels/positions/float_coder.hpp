@@ -1,14 +1,18 @@
-#include "positions.hpp"
+// Floats that lie on no lattice: predicted in floating point, residuals in units of the last place.
+#pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
 
-#include "integers.hpp"
+#include "../integers.hpp"
 #include "spaces.hpp"
+#include "traversal.hpp"
 
-namespace ebz {
-
-namespace {
+namespace ebz::positions {
 
 // What is known around a vertex before its position is coded.
 template <class Space>
@@ -22,9 +26,9 @@ struct Neighbourhood {
 
 // One path for both sides: an encoder codes the values that are there, a decoder fills them in.
 template <class Space, class Coder>
-class PositionCoder {
+class FloatCoder {
 public:
-    PositionCoder(const Surface& surface, std::span<int64_t> values, Coder& coder)
+    FloatCoder(const Surface& surface, std::span<int64_t> values, Coder& coder)
         : surface_(surface),
           corners_(surface),
           traversal_(surface, corners_),
@@ -33,9 +37,8 @@ public:
           coder_(coder) {}
 
     void run() {
-        for (Index v = traversal_.take(); v != none; v = traversal_.take()) {
+        for (Index v = traversal_.next_vertex(); v != none; v = traversal_.next_vertex()) {
             code(v);
-            traversal_.mark_known(v);
             previous_ = v;
         }
     }
@@ -67,11 +70,11 @@ private:
 
     Neighbourhood<Space> look_around(Index v) const {
         Neighbourhood<Space> around;
-        for (const Index c : corners_.of(v)) {
+        for (const Index c : corners_[v]) {
             if (around.n < max_terms) add_parallelogram(around, v, c);
         }
         around.on_parallelograms = around.n > 0;
-        for (const Index c : corners_.of(v)) {
+        for (const Index c : corners_[v]) {
             add_neighbour(around, surface_.vertex[next(c)]);
             add_neighbour(around, surface_.vertex[previous(c)]);
         }
@@ -82,7 +85,7 @@ private:
     // a + b - tip, over the edge ab across from v.
     void add_parallelogram(Neighbourhood<Space>& around, Index v, Index c) const {
         const Index a = surface_.vertex[next(c)], b = surface_.vertex[previous(c)];
-        const Index tip = traversal_.tip_across(next(c));
+        const Index tip = tip_across(next(c));
         if (tip == none || tip == v || !known(a) || !known(b) || !known(tip)) return;
         for (int axis = 0; axis < 3; ++axis) {
             around.sum[axis] += at(a, axis) + at(b, axis) - at(tip, axis);
@@ -105,11 +108,17 @@ private:
         for (int axis = 0; axis < 3; ++axis) around.sum[axis] = at(previous_, axis);
     }
 
+    // The vertex across half-edge h, none at a boundary.
+    Index tip_across(Index h) const {
+        const Index across = surface_.opposite[h];
+        return across == none ? none : surface_.vertex[previous(across)];
+    }
+
     bool known(Index v) const { return traversal_.known(v); }
     Sum at(Index v, int axis) const { return Space::value(values_[3 * v + axis]); }
 
     const Surface& surface_;
-    VertexCorners corners_;
+    CornersOfVertices corners_;
     Traversal traversal_;
     std::span<int64_t> values_;
     std::vector<uint32_t> magnitude_;  // of the residuals, summed over the axes
@@ -118,28 +127,4 @@ private:
     std::vector<std::array<std::array<IntegerModel, n_scales>, 3>> models_{2};
 };
 
-template <class Coder>
-void run(const Surface& surface, std::span<int64_t> values, Space space, Coder& coder) {
-    switch (space) {
-        case Space::float32: return PositionCoder<Float32Space, Coder>(surface, values, coder).run();
-        case Space::float64: return PositionCoder<Float64Space, Coder>(surface, values, coder).run();
-        default: PositionCoder<LatticeSpace, Coder>(surface, values, coder).run();
-    }
-}
-
-}  // namespace
-
-std::vector<uint8_t> encode_positions(const Surface& surface, std::span<const int64_t> values, Space space) {
-    std::vector<int64_t> copy(values.begin(), values.end());
-    RangeEncoder coder;
-    run(surface, copy, space, coder);
-    return coder.finish();
-}
-
-void decode_positions(std::span<const uint8_t> bytes, const Surface& surface, Space space,
-                      std::span<int64_t> values) {
-    RangeDecoder coder(bytes);
-    run(surface, values, space, coder);
-}
-
-}  // namespace ebz
+}  // namespace ebz::positions

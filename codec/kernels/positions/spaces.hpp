@@ -1,7 +1,6 @@
-// Arithmetic of the predictions in each space: sums of coordinates, and the value nearest to a mean.
+// Floats as integers in their order, and predictions among them: the float nearest to a mean.
 //
-// Both sides compute it, so it is exact or correctly rounded everywhere: integers that wrap, or IEEE
-// sums and quotients without contraction.
+// Both sides compute it, by IEEE sums and quotients without contraction, correctly rounded everywhere.
 #pragma once
 
 #include <bit>
@@ -10,7 +9,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace ebz {
+namespace ebz::positions {
 
 // Floats as integers in the same order; the sign bit becomes the sign, -0.0 is -1 and 0.0 is 0.
 template <class Bits>
@@ -26,17 +25,6 @@ constexpr Bits bits_from_ordered(int64_t ordered) {
     const Signed value = static_cast<Signed>(ordered);
     return static_cast<Bits>(value >= 0 ? value : value ^ std::numeric_limits<Signed>::max());
 }
-
-struct LatticeSpace {
-    using Sum = uint64_t;
-    static Sum value(int64_t x) { return static_cast<uint64_t>(x); }
-    static int64_t mean(Sum sum, int n) {
-        // Rounds to nearest, halves up; n <= 64, and wrapped sums only predict badly.
-        const int64_t doubled = static_cast<int64_t>(2 * sum + static_cast<uint64_t>(n));
-        const int64_t quotient = doubled / (2 * n);
-        return quotient - (doubled % (2 * n) < 0);
-    }
-};
 
 template <class Float, class Bits>
 struct FloatSpace {
@@ -56,4 +44,4 @@ struct FloatSpace {
 using Float32Space = FloatSpace<float, uint32_t>;
 using Float64Space = FloatSpace<double, uint64_t>;
 
-}  // namespace ebz
+}  // namespace ebz::positions

@@ -1,0 +1,206 @@
+#include "expectation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "float_logistic.hpp"
+
+namespace ebz::positions {
+
+namespace {
+
+// Half-octaves of a magnitude: 1 gives 11.
+int level_of(double x) {
+    const auto size = static_cast<float>(x < 1e30 ? x : 1e30) + 0.03f;
+    return std::clamp(static_cast<int>(log2_approx(size) * 2.0f + 64.0f) - 53, 0, 90);
+}
+
+uint32_t hash(uint32_t a, uint32_t b, uint32_t c = 0, uint32_t d = 0) {
+    uint32_t h = a * 0x9E3779B1u;
+    h = (h ^ (h >> 15)) + b * 0x85EBCA6Bu;
+    h = (h ^ (h >> 13)) * 0xC2B2AE35u + c * 0x27D4EB2Fu;
+    h = (h ^ (h >> 16)) + d * 0x165667B1u;
+    return h ^ (h >> 15);
+}
+
+uint32_t bucket(int64_t x, int64_t limit) { return static_cast<uint32_t>(std::clamp(x, -limit, limit) + limit); }
+
+uint32_t low_bits(int64_t x) { return static_cast<uint32_t>(static_cast<uint64_t>(x)); }
+
+void add_value(Expectation& x, size_t i, int64_t value, uint32_t context) {
+    x.value[i] = value;
+    x.value_context[i] = static_cast<uint8_t>(context);  // < 64
+    x.values |= 1u << i;
+}
+
+}  // namespace
+
+void Axes::begin(const Surroundings& s, const Prediction& p) {
+    s_ = &s;
+    p_ = &p;
+    plain_mean_ = p.plain;
+    refined_mean_ = p.refined;
+    covariance_ = p.covariance;
+    for (size_t d = 0; d < 3; ++d) base_[d] = rounded(p.plain[d]);
+    first_residual_ = last_residual_ = 0;
+}
+
+void Axes::expect(size_t turn, Expectation& x) {
+    const size_t d = p_->axes[turn];
+    const Nearest near = nearest(d);
+    x.turn = turn;
+    x.values = 0;
+    x.value.fill(0);
+    set_distributions(d, x);
+    set_sizes(d, x);
+    set_values(turn, near, x);
+    set_recalled(turn, x);
+    set_contexts(turn, near, x);
+}
+
+// Factors from a standard deviation or a mean magnitude to the scale of a logistic distribution.
+void Axes::set_distributions(size_t d, Expectation& x) const {
+    const auto base = static_cast<double>(base_[d]);
+    const double sigma = std::sqrt(std::max(covariance_[d][d], 1e-3)), error = p_->error[d] * 0.48 + 0.12;
+    const double sharper = std::clamp(p_->refined_size / (p_->size + 0.01), 0.1, 4.0);
+    const auto set = [&](size_t i, double mean, double scale) {
+        x.mean[i] = static_cast<float>(mean - base);
+        x.scale[i] = static_cast<float>(scale);
+    };
+    set(0, plain_mean_[d], sigma * 0.55 + 0.08);
+    set(1, p_->weighted[d], p_->spread[d] * 0.5 + p_->error[d] * 0.2 + 0.15);
+    set(2, refined_mean_[d], sigma * 0.55 * sharper + 0.08);
+    set(3, p_->fitted[d], error * sharper + 0.05);
+}
+
+void Axes::set_sizes(size_t d, Expectation& x) const {
+    const double sigma = std::sqrt(std::max(covariance_[d][d], 1e-3));
+    const int level = level_of(sigma);
+    x.shift = std::max(0, (level - 18) / 2);
+    x.level = std::min(level - 2 * x.shift, 22) / 2;
+    const double typical = std::clamp(sigma * 0.6, 0.25, 1e12);
+    const int digits = static_cast<int>(log2_approx(static_cast<float>(typical)) + 10.5f) - 10;
+    x.expected_class = std::clamp(digits, 0, ResidualModel::max_class - 1);
+}
+
+Axes::Nearest Axes::nearest(size_t d) const {
+    Nearest near{wrapping_difference(s_->neighbour_offset[0][d], base_[d]), 0, false};
+    for (size_t i = 1; i < static_cast<size_t>(s_->n_neighbours); ++i) {
+        const int64_t off = wrapping_difference(s_->neighbour_offset[i][d], base_[d]);
+        if (off == near.first) continue;
+        if (magnitude(off) < magnitude(near.first)) {
+            near = {off, near.first, true};
+        } else if (!near.has_second || magnitude(off) < magnitude(near.second)) {
+            near.second = off;
+            near.has_second = true;
+        }
+    }
+    return near;
+}
+
+// How often a source was exact on earlier axes of this vertex: 0 if there were none, else never: 1,
+// sometimes: 2, always: 3.
+uint32_t Axes::agreement(size_t turn, const Offset& at) const {
+    size_t hits = 0;
+    for (size_t i = 0; i < turn; ++i) hits += at[p_->axes[i]] == value_[p_->axes[i]] ? 1 : 0;
+    return turn == 0 ? 0 : hits == 0 ? 1 : hits < turn ? 2 : 3;
+}
+
+// Of predictions around this vertex; < 16.
+uint32_t Axes::exactness(size_t d) const {
+    return static_cast<uint32_t>(std::min(p_->n_exact[d], 3) * 4 + std::min(p_->n_traces, 3));
+}
+
+void Axes::set_values(size_t turn, const Nearest& near, Expectation& x) {
+    const size_t d = p_->axes[turn];
+    uint32_t first = 0, second = 0, most = 1;
+    double best_distance = 0;
+    int64_t matching = 0;  // of the neighbour that agreed most so far
+    for (size_t i = 0; i < static_cast<size_t>(s_->n_neighbours); ++i) {
+        const uint32_t agrees = agreement(turn, s_->neighbour_offset[i]);
+        const int64_t at = s_->neighbour_offset[i][d], off = wrapping_difference(at, base_[d]);
+        if (off == near.first) first = std::max(first, agrees);
+        if (off == near.second) second = std::max(second, agrees);
+        if (agrees < 2 || agrees < most) continue;
+        const double distance = std::fabs(static_cast<double>(at) - refined_mean_[d]);
+        if (agrees > most || distance < best_distance) {
+            most = agrees;
+            best_distance = distance;
+            matching = off;
+        }
+    }
+    const uint32_t exact = exactness(d);
+    add_value(x, 0, near.first, exact + 16 * first);
+    if (near.has_second) add_value(x, 1, near.second, exact + 16 * second);
+    for (size_t i = 0; i < 3 && i < static_cast<size_t>(s_->n_parallelograms); ++i) {
+        const Offset& tip = s_->parallelograms[i].tip;
+        add_value(x, 2 + i, wrapping_difference(tip[d], base_[d]), exact + 16 * agreement(turn, tip));
+    }
+    if (most > 1) add_value(x, 5, matching, exact + 16 * most);
+}
+
+uint32_t Axes::codes(size_t neighbour) const {
+    if (neighbour >= static_cast<size_t>(s_->n_neighbours)) return 0xffffff;
+    const auto& c = predictor_.trace(s_->neighbours[neighbour]).code;
+    return static_cast<uint32_t>((c[0] + 64) << 16 | (c[1] + 64) << 8 | (c[2] + 64));
+}
+
+// The residual that followed the same residuals around it, and the value that went with the same
+// coordinates on earlier axes.
+void Axes::set_recalled(size_t turn, Expectation& x) {
+    const size_t d = p_->axes[turn];
+    const auto axis_and_turn = static_cast<uint32_t>(d * 4 + turn), context = static_cast<uint32_t>(16 * turn);
+    residual_key_ = hash(codes(0), codes(1), axis_and_turn, hash(low_bits(first_residual_), low_bits(last_residual_)));
+    const int64_t one = turn > 0 ? value(p_->axes[0]) : s_->origin[d], two = turn > 1 ? value(p_->axes[1]) : 0;
+    value_key_ = hash(axis_and_turn, low_bits(one), low_bits(two));
+    if (const auto* r = residual_recall_.find(residual_key_)) add_value(x, 6, r->value, r->hits + context);
+    if (const auto* r = value_recall_.find(value_key_))
+        add_value(x, 7, wrapping_difference(r->value, base(d)), r->hits + context);
+}
+
+void Axes::set_contexts(size_t turn, const Nearest& near, Expectation& x) const {
+    const size_t d = p_->axes[turn];
+    const auto scaled = [&](double size) {
+        return static_cast<uint32_t>(std::clamp(level_of(size) - 2 * x.shift, 0, 40));
+    };
+    const uint32_t t = static_cast<uint32_t>(turn), axis = static_cast<uint32_t>(d), exact = exactness(d);
+    const uint32_t error = scaled(p_->error[d] + 0.25), spread = scaled(p_->spread[d]);
+    const uint32_t sigma = scaled(std::sqrt(std::max(covariance_[d][d], 1e-3)));
+    const uint32_t first = bucket(near.first, 20), second = near.has_second ? bucket(near.second, 20) : 50;
+    const int64_t e = first_residual_ >> x.shift;
+    const int64_t slide = rounded((plain_mean_[d] - p_->plain[d]) * 2);
+    const uint32_t near_code = static_cast<uint32_t>(predictor_.trace(s_->neighbours[0]).code[d] + 50);
+    // Which slots of a context are in use depends on where the search for the class begins.
+    const auto start = static_cast<uint32_t>(std::clamp(x.expected_class - x.shift + 8, 0, 15));
+    x.context = {
+        hash(axis, first, 0, start),
+        hash(spread, static_cast<uint32_t>(s_->n_parallelograms), 1, start),
+        hash(first, second + 256 * axis, 2, start),
+        hash(axis * 64 + error, spread / 2 + 32 * exact, 3, start),
+        hash(bucket(e, 40), near_code, axis * 16 + exact, start),
+        hash(turn == 0 ? 7 : low_bits(value(p_->axes[0])), low_bits(s_->origin[d]), t, start),
+        hash(t * 32 + bucket(slide, 13), sigma, 6, start),
+        hash(bucket(e, 2000), bucket(last_residual_ >> x.shift, 2000), t, start),
+    };
+}
+
+void Axes::reveal(size_t turn, int64_t e) {
+    const size_t d = p_->axes[turn];
+    residual_[d] = e;
+    value_[d] = wrapping_sum(base_[d], e);
+    (turn == 0 ? first_residual_ : last_residual_) = e;
+    residual_recall_.learn(residual_key_, e);
+    value_recall_.learn(value_key_, value(d));
+    // The remaining axes, conditioned on this one.
+    const auto at = static_cast<double>(value_[d]);
+    const double off_plain = at - plain_mean_[d], off_refined = at - refined_mean_[d];
+    for (size_t i = turn + 1; i < 3; ++i) {
+        const size_t a = p_->axes[i];
+        const double gain = covariance_[a][d] / covariance_[d][d];
+        plain_mean_[a] += gain * off_plain;
+        refined_mean_[a] += gain * off_refined;
+        for (size_t j = turn + 1; j < 3; ++j) covariance_[a][p_->axes[j]] -= gain * covariance_[d][p_->axes[j]];
+    }
+}
+
+}  // namespace ebz::positions

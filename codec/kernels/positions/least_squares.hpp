@@ -1,0 +1,74 @@
+// Online weighted least squares with forgetting, a prior, and solutions at growing intervals.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace ebz::positions {
+
+template <size_t D>
+class LeastSquares {
+public:
+    using Vector = std::array<double, D>;
+
+    LeastSquares() = default;
+    LeastSquares(const Vector& prior, double ridge, int window) : w_(prior), prior_(prior), ridge_(ridge), window_(window) {}
+
+    double predict(const Vector& x) const {
+        double sum = 0;
+        for (size_t i = 0; i < D; ++i) sum += w_[i] * x[i];
+        return sum;
+    }
+
+    bool seasoned() const { return n_ > 1000; }
+
+    void add(const Vector& x, double y, double weight) {
+        for (size_t i = 0; i < D; ++i) {
+            const double wx = weight * x[i];
+            for (size_t j = 0; j <= i; ++j) a_[i][j] += wx * x[j];
+            b_[i] += wx * y;
+        }
+    }
+
+    // To be called once per observed vertex; solves after 1, 2, 3, 4, 6, 8, 12, ... of them.
+    void tick() {
+        if (++n_ < due_) return;
+        solve();
+        const int step = n_ < 4 ? 1 : n_ < 128 ? n_ / 4 : 32;
+        due_ = n_ + step;
+        if (n_ >= 128) {
+            const double keep = 1.0 - 32.0 / window_;
+            for (auto& row : a_)
+                for (double& x : row) x *= keep;
+            for (double& x : b_) x *= keep;
+        }
+    }
+
+private:
+    // Minimises sum weight (y - w x)^2 + ridge |w - prior|^2 by Cholesky's L D L' factorisation.
+    void solve() {
+        double l[D][D], d[D];
+        Vector w;
+        for (size_t i = 0; i < D; ++i) {
+            w[i] = b_[i] + ridge_ * prior_[i];
+            for (size_t j = 0; j <= i; ++j) {
+                double sum = a_[i][j] + (i == j ? ridge_ : 0.0);
+                for (size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
+                if (i == j) d[i] = sum > 0.5 * ridge_ ? sum : 0.5 * ridge_;  // positive up to rounding
+                else l[i][j] = sum / d[j];
+            }
+            for (size_t k = 0; k < i; ++k) w[i] -= l[i][k] * w[k];
+        }
+        for (size_t i = 0; i < D; ++i) w[i] /= d[i];
+        for (size_t i = D; i-- > 0;)
+            for (size_t k = i + 1; k < D; ++k) w[i] -= l[k][i] * w[k];
+        w_ = w;
+    }
+
+    std::array<Vector, D> a_{};
+    Vector b_{}, w_{}, prior_{};
+    double ridge_ = 1;
+    int window_ = 2000, n_ = 0, due_ = 1;
+};
+
+}  // namespace ebz::positions

@@ -1,0 +1,79 @@
+// Logistic mixing with two weight sets whose sum applies, and secondary estimation of the result.
+//
+// Reference: M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "lanes.hpp"
+#include "float_logistic.hpp"
+
+namespace ebz::positions {
+
+template <size_t n_lanes>
+class Mixer {
+public:
+    using Inputs = std::array<Lanes, n_lanes>;
+
+    Mixer(size_t n_sets_a, size_t n_sets_b) : a_(n_sets_a, Inputs{}), b_(n_sets_b, Inputs{}) {}
+
+    template <size_t n>
+    void start(size_t set_a, const std::array<float, n>& weights) {
+        static_assert(n <= 4 * n_lanes);
+        for (size_t i = 0; i < n; ++i) a_[set_a][i / 4][i % 4] = weights[i];
+    }
+
+    // The logit of the bit being 1.
+    float mix(const Inputs& x, size_t set_a, size_t set_b) {
+        active_a_ = &a_[set_a];
+        active_b_ = &b_[set_b];
+        Lanes total{};
+        for (size_t i = 0; i < n_lanes; ++i) total += ((*active_a_)[i] + (*active_b_)[i]) * x[i];
+        return clamp(sum(total), -20.0f, 20.0f);
+    }
+
+    void update(const Inputs& x, float change) {
+        for (size_t i = 0; i < n_lanes; ++i) {
+            const Lanes step = change * x[i];
+            (*active_a_)[i] += step;
+            (*active_b_)[i] += step;
+        }
+    }
+
+private:
+    std::vector<Inputs> a_, b_;
+    Inputs *active_a_ = nullptr, *active_b_ = nullptr;
+};
+
+// Secondary estimation: a curve of 33 knots over the logit per context, adapted to what happened.
+class Curve {
+public:
+    explicit Curve(size_t n_contexts) : knots_(n_contexts) {
+        for (auto& curve : knots_)
+            for (size_t j = 0; j < n_knots; ++j) curve[j] = squash((static_cast<float>(j) - 16.0f) * 0.75f);
+    }
+
+    float refine(float logit, size_t context) {
+        const float at = clamp(logit, -11.9f, 11.9f) * (1.0f / 0.75f) + 16.0f;
+        const int32_t whole = static_cast<int32_t>(at);
+        knot_ = &knots_[context][static_cast<size_t>(whole)];
+        part_ = at - static_cast<float>(whole);
+        return knot_[0] + (knot_[1] - knot_[0]) * part_;
+    }
+
+    void update(float bit, float rate) {
+        knot_[0] += (bit - knot_[0]) * rate * (1.0f - part_);
+        knot_[1] += (bit - knot_[1]) * rate * part_;
+    }
+
+private:
+    static constexpr size_t n_knots = 33;
+    std::vector<std::array<float, n_knots>> knots_;
+    float* knot_ = nullptr;
+    float part_ = 0;
+};
+
+}  // namespace ebz::positions

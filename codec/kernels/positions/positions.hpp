@@ -1,0 +1,32 @@
+// Entropy coders for vertex positions along a surface that both sides know.
+//
+// References: C. Touma and C. Gotsman, "Triangle mesh compression", 1998 (parallelogram prediction);
+// D. Cohen-Or, R. Cohen and R. Irony, "Multi-way geometry encoding", 2002 (averages of parallelograms);
+// M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005 (logistic
+// mixing).  Here every binary decision of a residual mixes distributions around several predictions,
+// counted contexts, and exact values seen nearby.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface.hpp"
+
+namespace ebz::positions {
+
+enum class Method : uint8_t {
+    fast,    // one counted context per decision
+    light,   // a few mixed decisions
+    strong,  // every model there is
+    float32_bits,  // values are floats by their order (spaces.hpp), predictions are made in floats
+    float64_bits,
+};
+
+// values: 3 per vertex; magnitudes up to 2^40 but for the float methods.
+std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> values, Method method);
+
+// Fills values with what was encoded by the same method.  Any bytes decode to some positions.
+void decode(std::span<const uint8_t> bytes, const Surface& surface, Method method, std::span<int64_t> values);
+
+}  // namespace ebz::positions

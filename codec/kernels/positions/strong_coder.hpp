@@ -1,0 +1,54 @@
+// Codes all vertices in order of traversal, axis by axis, with every model there is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "expectation.hpp"
+#include "prediction.hpp"
+#include "recall.hpp"
+#include "residual_model.hpp"
+#include "seed_model.hpp"
+#include "surroundings.hpp"
+#include "traversal.hpp"
+#include "wrapping.hpp"
+
+namespace ebz::positions {
+
+template <class Coder>
+void code_positions_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+    const auto n = static_cast<size_t>(mesh.n_vertices);
+    const CornersOfVertices corners(mesh);
+    Traversal traversal(mesh, corners);
+    const Surveyor surveyor(mesh, corners, traversal, xyz);
+    Predictor predictor(n);
+    Axes axes(predictor);
+    const auto model = std::make_unique<ResidualModel>(n);
+    SeedModel seeds;
+    Surroundings s;
+    Prediction p;
+    Expectation x;
+    for (int32_t v; (v = traversal.next_vertex()) >= 0;) {
+        const auto position = xyz.subspan(3 * static_cast<size_t>(v), 3);
+        surveyor.survey(v, s);
+        if (s.n_neighbours == 0) {
+            seeds.code(coder, position);
+            continue;
+        }
+        predictor.predict(s, p);
+        axes.begin(s, p);
+        for (size_t turn = 0; turn < 3; ++turn) {
+            const size_t d = p.axes[turn];
+            const int64_t base = axes.base(d);
+            axes.expect(turn, x);
+            const int64_t e = model->code(coder, x, wrapping_difference(position[d], base));
+            position[d] = wrapping_sum(base, e);
+            axes.reveal(turn, e);
+        }
+        predictor.learn(v, s, p, surveyor.point(s, v), axes.residuals());
+    }
+}
+
+}  // namespace ebz::positions

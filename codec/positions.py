@@ -1,0 +1,58 @@
+"""Lattice coordinates <-> the position stream, along a surface that both sides know."""
+
+import enum
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels
+from ebz.codec.connectivity import Surface
+from ebz.codec.lattice import FloatLattice, Integers, Points
+
+
+class Method(enum.IntEnum):
+    """How positions are coded; the numbers are those of Method in the kernels."""
+
+    FAST = 0
+    LIGHT = 1
+    STRONG = 2
+    FLOAT32 = 3
+    FLOAT64 = 4
+
+
+# Predictions in floats, for a lattice of floats.
+FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
+
+
+def encode(
+    surface: Surface, points: Points, dtype: np.dtype[Any], method: Method
+) -> tuple[bytes, Method]:
+    """The shortest stream by the method, or by those that suit a lattice of floats."""
+    values = points.integers.reshape(-1)
+    streams = [
+        (_kernels.encode_positions(*_arrays(surface), len(points.integers), values, chosen), chosen)
+        for chosen in _candidates(points, dtype, method)
+    ]
+    return min(streams, key=lambda pair: len(pair[0]))
+
+
+def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> Integers:
+    """(n, 3) coordinates; whatever the bytes are, some come back."""
+    stream = np.frombuffer(data, np.uint8)
+    values = _kernels.decode_positions(stream, *_arrays(surface), n_vertices, method)
+    return values.reshape(-1, 3)
+
+
+def _arrays(surface: Surface) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    return surface.opposite, surface.vertex
+
+
+def _candidates(points: Points, dtype: np.dtype[Any], method: Method) -> Sequence[Method]:
+    """Floats of 32 bits by their order are also integers that the strong method can predict."""
+    if not isinstance(points.lattice, FloatLattice):
+        return [method]
+    in_floats = FLOAT_METHODS[dtype.itemsize]
+    both = method == Method.STRONG and in_floats == Method.FLOAT32
+    return [in_floats, method] if both else [in_floats]
