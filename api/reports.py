@@ -22,7 +22,7 @@ def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -
     decoded = pipeline.decode(encoded)
     guarantee = guaranteed_bits(guaranteed_by(encoded.model))
     return statistics.describe(
-        encoded, decoded.word, decoded.surface, container.sizes(view), guarantee
+        encoded, decoded.word, decoded.surface, decoded.mesh, container.sizes(view), guarantee
     )
 
 

@@ -5,15 +5,15 @@ other faces, because the original's own order differs in a way that matters, ver
 their exact data, refined by the data of the faces around them.
 """
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import connectivity, matching
+from ebz.codec import connectivity, matching, welding
 from ebz.codec.errors import EbzError
-from ebz.codec.lattice import BoxLattice, Lattice, StepLattice
+from ebz.codec.lattice import BoxLattice, Lattice, StepLattice, fit, restore
 from ebz.codec.mesh import Mesh
 
 Order = npt.NDArray[Any]
@@ -65,7 +65,7 @@ def compare(decoded: Mesh, original: Mesh, lattice: Lattice, checked: list[str])
     difference = _different_kind(decoded, original)
     if difference:
         return Verification(False, checked, first_difference=difference, **found)
-    match = _by_traversal(decoded, original) or _by_data(decoded, original, lattice)
+    match = _by_traversal(decoded, original, lattice) or _by_data(decoded, original, lattice)
     if isinstance(match, str):
         return Verification(False, checked, first_difference=match, **found)
     checked = [*checked, "faces and their orientation", "coordinates"]
@@ -103,8 +103,12 @@ def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
     return None
 
 
-def _by_traversal(decoded: Mesh, original: Mesh) -> _Correspondence | None:
-    _, order = connectivity.traverse(original.faces, len(original.vertices))
+def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence | None:
+    welded = welding.weld(original.faces, _as_stored(original.vertices, lattice))
+    surface, order = connectivity.traverse(welded, len(original.vertices))
+    order = replace(
+        order, vertices=welding.arrange(original.faces, welded, surface, order).vertices
+    )
     number = np.empty(len(order.vertices), np.int64)
     number[order.vertices] = np.arange(len(order.vertices))
     faces = number[original.faces[order.faces]]
@@ -129,9 +133,14 @@ def _by_data(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence
 
 
 def _as_stored(vertices: npt.NDArray[Any], lattice: Lattice) -> npt.NDArray[Any]:
-    if not isinstance(lattice, BoxLattice | StepLattice):
+    """The coordinates that compressing at the same precision would store."""
+    if not isinstance(lattice, BoxLattice | StepLattice) or not np.isfinite(vertices).all():
         return vertices
-    return lattice.coordinates(lattice.integers(vertices), vertices.dtype)
+    if isinstance(lattice, BoxLattice):
+        points = fit(vertices, bits=lattice.bits)
+    else:
+        points = fit(vertices, max_error=lattice.max_error)
+    return restore(points, vertices.dtype, vertices.reshape(-1)[points.exceptions])
 
 
 def _keys(mesh: Mesh, vertices: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:

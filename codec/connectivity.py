@@ -188,7 +188,7 @@ def _traverse(
     symbols, specials, n_closed, n_single, corners, opposite, piece_vertex, source = (
         _kernels.encode_connectivity(compact.reshape(-1), n_compact)
     )
-    vertex_of_piece, is_first = _number_by_first_use(source)
+    vertex_of_piece, is_first = number_by_first_use(source)
     order = source[is_first].astype(np.int64)
     order = order if used is None else used[order]
     return (
@@ -212,7 +212,7 @@ def _compact(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Int64s | None, I
     return used.astype(np.int64), compact.astype(np.int32)
 
 
-def _number_by_first_use(source: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
+def number_by_first_use(source: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
     """Numbers for repeated items by first appearance, and which entries are first appearances."""
     entries = np.arange(len(source), dtype=np.int32)
     first = np.zeros(int(source.max(initial=-1)) + 1, np.int32)

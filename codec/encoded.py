@@ -35,6 +35,7 @@ class Streams:
     word: bytes
     special_integers: bytes
     gluing: bytes
+    splits: bytes | None  # None: no position is shared
     positions: bytes
     exception_rows: bytes
     exception_values: bytes

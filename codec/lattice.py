@@ -8,7 +8,7 @@ Fitting depends on the set of coordinates alone, not on their order, and gives t
 the coordinates it decodes to: that makes compression canonical.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -114,6 +114,14 @@ class Points:
     lattice: Lattice
     integers: Integers
     exceptions: npt.NDArray[np.int64]
+
+    def take(self, rows: npt.NDArray[Any]) -> "Points":
+        """Those rows, in that order."""
+        if not len(self.exceptions):
+            return replace(self, integers=self.integers[rows])
+        marked = np.zeros(self.integers.shape, bool)
+        marked.reshape(-1)[self.exceptions] = True
+        return Points(self.lattice, self.integers[rows], np.flatnonzero(marked[rows]))
 
 
 # Whatever overflows or is not a number comes back different, and so becomes an exception.

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import attributes, connectivity, lattice, metadata, positions
+from ebz.codec import attributes, connectivity, lattice, metadata, positions, welding
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
@@ -16,6 +16,7 @@ from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
 from ebz.codec.mesh import Mesh, face_dtype
+from ebz.codec.welding import Arrangement
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
@@ -47,20 +48,25 @@ def encode(
     mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
     if bits is not None or max_error:
         lattice.require_finite(mesh.vertices)
-    report("connectivity", 0, N_STAGES)
+    report("lattice", 0, N_STAGES)
+    points = lattice.fit(mesh.vertices, bits, max_error)
+    exact = mesh.vertices.reshape(-1)[points.exceptions]
+    stored = lattice.restore(points, mesh.vertices.dtype, exact)
+    report("connectivity", 1, N_STAGES)
     models = word_models(level) if model is None else [model]
-    word, surface, order = connectivity.encode(mesh.faces, len(mesh.vertices), models)
-    report("lattice", 1, N_STAGES)
-    coordinates = mesh.vertices[order.vertices]
-    points = lattice.fit(coordinates, bits, max_error)
+    welded = welding.weld(mesh.faces, stored)
+    word, surface, order = connectivity.encode(welded, len(stored), models)
+    arrangement = welding.arrange(mesh.faces, welded, surface, order)
+    order = replace(order, vertices=arrangement.vertices)
     report("positions", 2, N_STAGES)
-    stream, method = positions.encode(surface, points, coordinates.dtype, position_method(level))
-    exact = coordinates.reshape(-1)[points.exceptions]
+    points = points.take(arrangement.sites)
+    stream, method = positions.encode(surface, points, stored.dtype, position_method(level))
+    exact = mesh.vertices[arrangement.sites].reshape(-1)[points.exceptions]
     report("attributes", 3, N_STAGES)
     encoded = EncodedMesh(
-        dtype=coordinates.dtype,
+        dtype=stored.dtype,
         counts=word.counts,
-        n_vertices=len(coordinates),
+        n_vertices=len(stored),
         n_exceptions=len(points.exceptions),
         lattice=points.lattice,
         method=method,
@@ -69,6 +75,7 @@ def encode(
             word=word.word,
             special_integers=word.special_integers,
             gluing=word.gluing,
+            splits=arrangement.splits,
             positions=stream,
             exception_rows=encode_columns(gaps(points.exceptions)),
             exception_values=_encode_values(exact),
@@ -78,7 +85,7 @@ def encode(
         face_attributes=attributes.encode(mesh.face_attributes, order.faces),
         metadata=metadata.encode(mesh.metadata) if mesh.metadata else b"",
     )
-    decoded = _reordered(mesh, order, surface, lattice.restore(points, coordinates.dtype, exact))
+    decoded = _reordered(mesh, order, arrangement, stored[order.vertices])
     report("done", N_STAGES, N_STAGES)
     return replace(encoded, digest=digest(decoded))
 
@@ -97,18 +104,20 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         place=encoded.place,
     )
     n_vertices = encoded.n_vertices
-    if surface.vertex_of_piece.max(initial=-1) >= n_vertices:
-        raise CorruptError(f"{encoded.place('word')}: more vertices than the {n_vertices} declared")
+    with corrupt_at(encoded.place("word" if streams.splits is None else "splits")):
+        split = welding.split(surface, streams.splits, n_vertices)
     report("positions", 1, N_STAGES)
-    integers = positions.decode(streams.positions, surface, n_vertices, encoded.method)
+    integers = positions.decode(streams.positions, surface, split.n_sites, encoded.method)
     report("lattice", 2, N_STAGES)
     with corrupt_at(encoded.place("exceptions")):
-        points = Points(encoded.lattice, integers, _decode_exceptions(encoded, n_vertices))
+        points = Points(encoded.lattice, integers, _decode_exceptions(encoded, split.n_sites))
         exact = _decode_values(streams.exception_values, encoded)
     vertices = lattice.restore(points, encoded.dtype, exact)
+    if streams.splits is not None:
+        vertices = vertices[split.site]
     report("attributes", 3, N_STAGES)
     with corrupt_at(encoded.place("rotations")):
-        faces = _rotate(surface.vertex.reshape(-1, 3), streams.rotations)
+        faces = _rotate(split.vertex.reshape(-1, 3), streams.rotations)
     mesh = Mesh(
         vertices=vertices,
         faces=faces.astype(face_dtype(n_vertices), copy=False),
@@ -169,9 +178,11 @@ def _rotate(faces: npt.NDArray[np.int32], rotations: bytes | None) -> npt.NDArra
     return np.take_along_axis(faces, corners, axis=1)
 
 
-def _reordered(mesh: Mesh, order: OutputOrder, surface: Surface, vertices: lattice.Floats) -> Mesh:
+def _reordered(
+    mesh: Mesh, order: OutputOrder, arrangement: Arrangement, vertices: lattice.Floats
+) -> Mesh:
     """The mesh as decoding will yield it."""
-    faces = surface.vertex.reshape(-1, 3)
+    faces = arrangement.vertex.reshape(-1, 3)
     if attributes.keeps_rotation(mesh.face_attributes):
         first = (-order.corners % 3).astype(np.intp)
         faces = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ebz.codec import _kernels
 from ebz.codec.connectivity import EncodedWord, Surface, WordModel
 from ebz.codec.encoded import EncodedMesh
+from ebz.codec.mesh import Mesh
 from ebz.codec.models.adaptive import Effort
 
 # W. T. Tutte, "A census of planar triangulations", 1962: log2(256 / 27) bits per vertex.
@@ -43,6 +44,7 @@ class Stats:
     boundary_loops: int
     boundary_edges: int
     glued_vertices: int
+    welded_vertices: int
     symbols: dict[str, int]
     hole_and_handle_integers: int
     model: str
@@ -72,6 +74,7 @@ def describe(
     encoded: EncodedMesh,
     word: EncodedWord,
     surface: Surface,
+    mesh: Mesh,
     chunk_sizes: dict[str, int],
     guarantee: float,
 ) -> Stats:
@@ -81,10 +84,11 @@ def describe(
     guarantee: worst case of the model, bits per vertex of a closed mesh of genus 0.
     """
     n_vertices, n_faces = encoded.n_vertices, encoded.counts.n_faces
+    n_used = len(np.unique(mesh.faces))
     components, loops, boundary_edges, n_edges = _kernels.describe(surface.opposite)
     n_piece_vertices = len(surface.vertex_of_piece)
     euler = n_piece_vertices - n_edges + n_faces
-    connectivity = _total(chunk_sizes, "word", "model", "special S", "gluing")
+    connectivity = _total(chunk_sizes, "word", "model", "special S", "gluing", "splits")
     geometry = _total(chunk_sizes, "positions", "exceptions")
     attributes = _total(
         chunk_sizes, "vertex attributes", "face attributes", "rotations", "metadata"
@@ -94,12 +98,15 @@ def describe(
         vertices=n_vertices,
         faces=n_faces,
         vertex_dtype=encoded.dtype.name,
-        isolated_vertices=n_vertices - int(surface.vertex_of_piece.max(initial=-1)) - 1,
+        isolated_vertices=n_vertices - n_used,
         components=components,
         genus=components - (euler + loops) // 2,
         boundary_loops=loops,
         boundary_edges=boundary_edges,
         glued_vertices=encoded.counts.n_copies,
+        welded_vertices=len(np.unique(mesh.faces))
+        - int(surface.vertex_of_piece.max(initial=-1))
+        - 1,
         symbols=_count_symbols(word.symbols),
         hole_and_handle_integers=2 * encoded.counts.n_specials,
         model=_model_name(encoded.model),

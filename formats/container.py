@@ -45,12 +45,12 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
         (layout.WORD, streams.word if encoded.counts.n_symbols else b""),
         (layout.SPECIALS, streams.special_integers),
         (layout.GLUING, streams.gluing),
+        (layout.SPLITS, streams.splits),
         (layout.POSITIONS, streams.positions if encoded.n_vertices else b""),
         (layout.EXCEPTIONS, _exceptions(streams) if encoded.n_exceptions else b""),
+        (layout.ROTATIONS, streams.rotations),
     ]
     parts += [chunks.write(kind, payload) for kind, payload in optional if payload]
-    if streams.rotations is not None:
-        parts.append(chunks.write(layout.ROTATIONS, streams.rotations))
     for array in encoded.vertex_attributes:
         parts.append(chunks.write(layout.VERTEX_ATTRIBUTE, records.attribute(array)))
     for array in encoded.face_attributes:
@@ -137,6 +137,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
             word=payload(layout.WORD),
             special_integers=payload(layout.SPECIALS),
             gluing=payload(layout.GLUING),
+            splits=found[layout.SPLITS].payload if layout.SPLITS in found else None,
             positions=payload(layout.POSITIONS),
             exception_rows=exceptions.rows,
             exception_values=exceptions.exact,

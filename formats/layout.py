@@ -39,7 +39,7 @@ VERSION = 1
 
 # Chunk types: upper case is required to decode, a reader skips what it does not know in lower case.
 HEADER, MODEL, WORD, SPECIALS, GLUING = b"H", b"M", b"W", b"S", b"G"
-POSITIONS, EXCEPTIONS, ROTATIONS = b"P", b"X", b"R"
+SPLITS, POSITIONS, EXCEPTIONS, ROTATIONS = b"I", b"P", b"X", b"R"
 VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, METADATA, END = b"V", b"F", b"D", b"Z"
 
 NAMES = {
@@ -48,6 +48,7 @@ NAMES = {
     WORD: "word",
     SPECIALS: "special S",
     GLUING: "gluing",
+    SPLITS: "splits",
     POSITIONS: "positions",
     EXCEPTIONS: "exceptions",
     ROTATIONS: "rotations",

@@ -10,6 +10,8 @@ from ebz.codec.models.table import TOTAL
 
 # The cheapest adaptive bit: AdaptiveBit in codec/kernels/adaptive_bit.hpp.
 CHEAPEST_BIT = math.log2(65536 / (65536 - 32))
+# The cheapest decision about a position: its probability is at most 65535 / 2^16.
+CHEAPEST_DECISION = math.log2(65536 / 65535)
 # What a range coder's stream of b bytes holds is at most 8 b bits and these.
 SLACK_BITS = 8
 DEFAULT_MEMORY_LIMIT = 4 << 30
@@ -26,7 +28,9 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         _check_symbols(encoded)
         _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
         _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
-        _check("vertices", encoded.n_vertices, 3 * CHEAPEST_BIT, streams.positions)
+        n_split = 3 * counts.n_faces if streams.splits is not None else 0
+        n_coded = max(0, encoded.n_vertices - n_split)
+        _check("vertices", n_coded, 3 * CHEAPEST_DECISION, streams.positions)
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
     if streams.rotations is not None:
         with corrupt_at(encoded.place("rotations")):

@@ -12,7 +12,9 @@
 #include "integers.hpp"
 #include "lattices.hpp"
 #include "positions/positions.hpp"
+#include "splits.hpp"
 #include "topology.hpp"
+#include "weld.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -154,6 +156,24 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
     }));
 }
 
+nb::bytes encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& point, int32_t n_points,
+                        const Input<int32_t>& vertex) {
+    return to_bytes(
+        without_gil([&] { return ebz::encode_splits(view(opposite), view(point), n_points, view(vertex)); }));
+}
+
+Array<int32_t> decode_splits(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                             const Input<int32_t>& point, int32_t n_points) {
+    return to_numpy(
+        without_gil([&] { return ebz::decode_splits(view(bytes), view(opposite), view(point), n_points); }));
+}
+
+template <class Bits>
+Array<int32_t> weld(const Input<int32_t>& faces, const Input<Bits>& positions) {
+    require_addressable(positions.size());
+    return to_numpy(without_gil([&] { return ebz::weld(view(faces), view(positions)); }));
+}
+
 template <class Float>
 int decimal_digits(const Input<Float>& values, int max_digits, size_t max_misses) {
     return without_gil([&] { return ebz::decimal_digits(view(values), max_digits, max_misses); });
@@ -223,6 +243,13 @@ NB_MODULE(_kernels, m) {
           "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
           "method"_a, "The 3n lattice values.");
+    m.def("encode_splits", &encode_splits, "opposite"_a, "point"_a, "n_points"_a, "vertex"_a,
+          "Which corners at each point belong to which vertex.");
+    m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,
+          "The vertex of each corner, numbered by first use.");
+    m.def("weld", &weld<int32_t>, "faces"_a, "positions"_a);
+    m.def("weld", &weld<int64_t>, "faces"_a, "positions"_a,
+          "For each vertex the first that stands for it, empty if nothing is welded.");
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
           "The fewest decimals that all values but max_misses have, -1 if there are too many.");

@@ -1,0 +1,20 @@
+// Vertices at equal positions as one point, where the surface has a seam there.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "corner_table.hpp"
+
+namespace ebz {
+
+// For each vertex, the first vertex that stands for it; empty where each stands for itself.
+//
+// positions: 3 per vertex, compared bit for bit.  Vertices are welded only if all edges around them do
+// not pair up, so that positions which quantising makes equal inside a surface tear nothing, and only
+// if no face loses a corner by it.  The outcome does not depend on the order of vertices and faces.
+template <class Bits>
+std::vector<Index> weld(std::span<const Index> faces, std::span<const Bits> positions);
+
+}  // namespace ebz

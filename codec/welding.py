@@ -1,0 +1,99 @@
+"""Vertices at equal positions: coded as one site of the surface, and split again afterwards.
+
+Seams (of texture coordinates, of sharp edges) and triangle soups repeat positions.  The word and
+the positions are those of the welded surface; the splits stream tells which corners at a site
+belong to which vertex, so that the decoded mesh has its own vertices again.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels
+from ebz.codec.connectivity import Int32s, Int64s, OutputOrder, Surface, number_by_first_use
+from ebz.codec.errors import CorruptError
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """What is coded of the vertices, and where it comes from.
+
+    vertex: (3m,) the output vertex of each corner in output order.  vertices: (n,) the source of
+    each output vertex; those that no face uses come last.  sites: the source vertex of each
+    position that is coded.  splits: None where sites are vertices.
+    """
+
+    vertex: Int32s
+    vertices: Int64s
+    sites: Int64s
+    splits: bytes | None
+
+
+def weld(faces: npt.NDArray[Any], stored: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The faces with one vertex for all at a seam's position; the same array if there are none.
+
+    stored: (n, 3) the coordinates as they will be decoded.
+    """
+    bits = np.ascontiguousarray(stored).view(f"i{stored.dtype.itemsize}").reshape(-1)
+    compact = np.ascontiguousarray(faces, np.int32).reshape(-1)
+    first = _kernels.weld(compact, bits)
+    return faces if not len(first) else first[faces]
+
+
+def arrange(
+    faces: npt.NDArray[Any], welded: npt.NDArray[Any], surface: Surface, order: OutputOrder
+) -> Arrangement:
+    """The vertices of `faces` along the surface of the welded faces, in their output order."""
+    if welded is faces:
+        return Arrangement(surface.vertex, order.vertices, order.vertices, None)
+    corners = np.stack([order.corners, _next(order.corners), _next(_next(order.corners))], axis=1)
+    source = faces.reshape(-1)[corners.reshape(-1)]
+    vertex, is_first = number_by_first_use(source)
+    n_sites = _n_sites(surface)
+    isolated = np.ones(len(order.vertices), bool)
+    isolated[source] = False
+    unused = np.flatnonzero(isolated)
+    splits = _kernels.encode_splits(surface.opposite, surface.vertex, n_sites, vertex)
+    return Arrangement(
+        vertex,
+        np.concatenate([source[is_first], unused]),
+        np.concatenate([order.vertices[:n_sites], unused]),
+        splits,
+    )
+
+
+@dataclass(frozen=True)
+class Split:
+    """The decoder's side: the vertex of each corner, and the coded site of each vertex."""
+
+    vertex: Int32s
+    site: Int64s
+
+    @property
+    def n_sites(self) -> int:
+        return int(self.site.max(initial=-1)) + 1
+
+
+def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
+    """Which vertex each corner has; raises CorruptError where there are more than n_vertices."""
+    n_sites = _n_sites(surface)
+    vertex, site = surface.vertex, np.arange(n_sites)
+    if splits is not None:
+        data = np.frombuffer(splits, np.uint8)
+        vertex = _kernels.decode_splits(data, surface.opposite, surface.vertex, n_sites)
+        site = np.zeros(int(vertex.max(initial=-1)) + 1, np.int64)
+        site[vertex] = surface.vertex
+    n_isolated = n_vertices - len(site)
+    if n_isolated < 0:
+        raise CorruptError(f"more vertices than the {n_vertices} declared")
+    return Split(vertex, np.concatenate([site, n_sites + np.arange(n_isolated)]))
+
+
+def _next(corners: Int32s) -> Int32s:
+    return np.where(corners % 3 == 2, corners - 2, corners + 1)
+
+
+def _n_sites(surface: Surface) -> int:
+    return int(surface.vertex_of_piece.max(initial=-1)) + 1
