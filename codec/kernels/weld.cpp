@@ -64,12 +64,12 @@ bool any_equal(std::span<const Bits> positions) {
     return false;
 }
 
-// Vertices whose point would take two corners of one face.
+// The vertices of faces that would lose a corner.
 std::vector<bool> folding(std::span<const Index> faces, std::span<const Index> point) {
     std::vector<bool> folds(point.size());
     for (Index h = 0; h < static_cast<Index>(faces.size()); ++h) {
         const Index a = faces[h], b = faces[next(h)];
-        if (a != b && point[a] == point[b]) folds[point[a]] = true;
+        if (a != b && point[a] == point[b]) folds[a] = folds[b] = true;
     }
     return folds;
 }
@@ -83,17 +83,19 @@ std::vector<Index> weld(std::span<const Index> faces, std::span<const Bits> posi
     const std::vector<bool> seam = on_seam(faces, n_vertices);
     std::vector<Index> point(n_vertices);
     std::iota(point.begin(), point.end(), 0);
-    Positions<Bits> table(positions);
-    for (Index v = 0; v < n_vertices; ++v) {
-        if (seam[v]) point[v] = table.first(v);
-    }
-    const std::vector<bool> folds = folding(faces, point);
-    bool any = false;
-    for (Index v = 0; v < n_vertices; ++v) {
-        if (folds[point[v]]) point[v] = v;
-        any = any || point[v] != v;
-    }
-    return any ? point : std::vector<Index>{};
+    std::vector<bool> excluded(n_vertices);
+    const auto weld_others = [&] {
+        Positions<Bits> table(positions);
+        bool any = false;
+        for (Index v = 0; v < n_vertices; ++v) {
+            point[v] = seam[v] && !excluded[v] ? table.first(v) : v;
+            any = any || point[v] != v;
+        }
+        return any;
+    };
+    if (!weld_others()) return {};
+    excluded = folding(faces, point);
+    return weld_others() ? point : std::vector<Index>{};
 }
 
 template std::vector<Index> weld(std::span<const Index>, std::span<const int32_t>);

@@ -11,9 +11,9 @@ namespace ebz {
 
 // For each vertex, the first vertex that stands for it; empty where each stands for itself.
 //
-// positions: 3 per vertex, compared bit for bit.  Vertices are welded only if all edges around them do
-// not pair up, so that positions which quantising makes equal inside a surface tear nothing, and only
-// if no face loses a corner by it.  The outcome does not depend on the order of vertices and faces.
+// positions: 3 per vertex, compared bit for bit.  Only vertices at an edge that does not pair up are
+// welded, so that positions which quantising makes equal inside a surface tear nothing, and none of a
+// face that would lose a corner by it.  The outcome does not depend on the order of vertices and faces.
 template <class Bits>
 std::vector<Index> weld(std::span<const Index> faces, std::span<const Bits> positions);
 
