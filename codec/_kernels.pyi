@@ -42,8 +42,10 @@ def decode_connectivity(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,)
 def encode_adaptive(symbols: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_closed: int, n_single: int, specials: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], effort: int) -> bytes:
     """The word in reverse order under an adaptive model."""
 
-def decode_adaptive(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_symbols: int, n_closed: int, n_single: int, specials: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], effort: int) -> tuple[Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], int]:
-    """What decode_connectivity gives, of a word under an adaptive model."""
+def decode_adaptive(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_symbols: int, n_closed: int, n_single: int, n_specials: int, effort: int) -> tuple[tuple[Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], int], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    What decode_connectivity gives and the specials, of a word under an adaptive model.
+    """
 
 def encode_positions(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int, values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], method: int) -> bytes:
     """The bytes of 3n lattice values along a surface."""

@@ -71,7 +71,7 @@ class EncodedWord:
     symbols: npt.NDArray[np.uint8]  # C, L, R, S, E as 0 to 4, first triangle first
     specials: Int64s  # (2 n_specials,) position in the word, half-edge met
     word: bytes  # the symbols from the last to the first, under the model
-    special_integers: bytes
+    special_integers: bytes  # b"" where an adaptive model codes them in the word
     gluing: bytes
 
 
@@ -105,18 +105,13 @@ def encode(
     symbols, specials, n_closed, n_single = kernel
     copies = _copies(surface)
     counts = WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, len(copies))
-    words = [(_encode_word(symbols, specials, counts, model), model) for model in models]
-    word, model = min(words, key=lambda pair: len(pair[0]))
-    encoded = EncodedWord(
-        counts,
-        model,
-        symbols,
-        specials,
-        word,
-        _encode_specials(specials),
-        _encode_gluing(copies, surface.vertex_of_piece),
-    )
-    return encoded, surface, order
+    gluing = _encode_gluing(copies, surface.vertex_of_piece)
+    words = [
+        EncodedWord(counts, model, symbols, specials, *streams, gluing)
+        for model in models
+        for streams in [_encode_word(symbols, specials, counts, model)]
+    ]
+    return min(words, key=lambda word: len(word.word) + len(word.special_integers)), surface, order
 
 
 def decode(
@@ -132,10 +127,9 @@ def decode(
 
     place: what errors call the parts of the file.
     """
-    with corrupt_at(place("special S")):
-        specials = _decode_specials(special_integers, counts)
-    with corrupt_at(place("word")):
-        symbols, opposite, piece_vertex, n_pieces = _decode_word(word, specials, counts, model)
+    (symbols, opposite, piece_vertex, n_pieces), specials = _decode_word(
+        word, special_integers, counts, model, place
+    )
     with corrupt_at(place("gluing")):
         vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
     encoded = EncodedWord(counts, model, symbols, specials, word, special_integers, gluing)
@@ -150,20 +144,32 @@ def traverse(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Surface, OutputO
 
 def _encode_word(
     symbols: npt.NDArray[np.uint8], specials: Int64s, counts: WordCounts, model: WordModel
-) -> bytes:
+) -> tuple[bytes, bytes]:
+    """The word and the integers of its special S, which adaptive models code within the word."""
     if isinstance(model, AnyTable):
-        return _kernels.encode_symbols(symbols, specials, _frozen(model))
-    return _kernels.encode_adaptive(symbols, counts.n_closed, counts.n_single, specials, model)
+        word = _kernels.encode_symbols(symbols, specials, _frozen(model))
+        return word, _encode_specials(specials)
+    sizes = counts.n_closed, counts.n_single
+    return _kernels.encode_adaptive(symbols, *sizes, specials, model), b""
 
 
 def _decode_word(
-    word: bytes, specials: Int64s, counts: WordCounts, model: WordModel
-) -> tuple[npt.NDArray[np.uint8], Int32s, Int32s, int]:
+    word: bytes,
+    special_integers: bytes,
+    counts: WordCounts,
+    model: WordModel,
+    place: Callable[[str], str],
+) -> tuple[tuple[npt.NDArray[np.uint8], Int32s, Int32s, int], Int64s]:
     data = np.frombuffer(word, np.uint8)
     sizes = counts.n_symbols, counts.n_closed, counts.n_single
     if isinstance(model, AnyTable):
-        return _kernels.decode_connectivity(data, *sizes, specials, _frozen(model))
-    return _kernels.decode_adaptive(data, *sizes, specials, model)
+        with corrupt_at(place("special S")):
+            specials = _decode_specials(special_integers, counts)
+        with corrupt_at(place("word")):
+            frozen = _frozen(model)
+            return _kernels.decode_connectivity(data, *sizes, specials, frozen), specials
+    with corrupt_at(place("word")):
+        return _kernels.decode_adaptive(data, *sizes, counts.n_specials, model)
 
 
 def _frozen(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:

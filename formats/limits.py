@@ -26,7 +26,6 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
     counts, streams = encoded.counts, encoded.streams
     with corrupt_at(encoded.place("header")):
         _check_symbols(encoded)
-        _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
         _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
         n_split = 3 * counts.n_faces if streams.splits is not None else 0
         n_coded = max(0, encoded.n_vertices - n_split)
@@ -48,16 +47,17 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
 
 
 def _check_symbols(encoded: EncodedMesh) -> None:
-    counts, model = encoded.counts, encoded.model
+    counts, model, streams = encoded.counts, encoded.model, encoded.streams
     if isinstance(model, AnyTable):
         cheapest = math.log2(TOTAL / int(model.frequencies.max()))
-        _check("symbols", counts.n_symbols, cheapest, encoded.streams.word)
+        _check("symbols", counts.n_symbols, cheapest, streams.word)
+        _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
         return
-    # A special S costs integers instead, and single triangles have their own vertices or copies.
     if 3 * counts.n_single > encoded.n_vertices + counts.n_copies:
         raise CorruptError(f"header: {counts.n_single} single triangles have too few vertices")
-    n_free = 1 + counts.n_single + counts.n_specials
-    _check("symbols", max(0, counts.n_symbols - n_free), CHEAPEST_SYMBOL, encoded.streams.word)
+    # The symbols of single triangles and the first are determined.
+    n_coded = max(counts.n_symbols - counts.n_single - 1, counts.n_specials)
+    _check("symbols", n_coded, CHEAPEST_SYMBOL, streams.word)
 
 
 def _check(what: str, count: int, bits_each: float, stream: bytes) -> None:

@@ -22,6 +22,10 @@ def encode(faces: npt.NDArray[np.integer], *models: connectivity.WordModel) -> E
     return connectivity.encode(faces, n_used(faces), models)[0]
 
 
+def size(word: EncodedWord) -> int:
+    return len(word.word) + len(word.special_integers)
+
+
 @given(meshes.face_lists(), EFFORTS)
 def test_words_come_back(faces: Faces, effort: Effort) -> None:
     word, surface, _ = connectivity.encode(faces, n_used(faces), [effort])
@@ -31,6 +35,7 @@ def test_words_come_back(faces: Faces, effort: Effort) -> None:
     assert decoded.symbols.tobytes() == word.symbols.tobytes()
     assert np.array_equal(restored.opposite, surface.opposite)
     assert np.array_equal(restored.vertex, surface.vertex)
+    assert np.array_equal(decoded.specials, word.specials)
 
 
 @given(meshes.face_lists(), st.sampled_from(LEVELS))
@@ -38,7 +43,7 @@ def test_no_level_takes_more_than_the_certified_table(faces: Faces, level: int) 
     models = word_models(level)
     best = encode(faces, *models)
     alone = [encode(faces, model) for model in models]
-    assert len(best.word) == min(len(word.word) for word in alone)
+    assert size(best) == min(size(word) for word in alone)
 
 
 @pytest.mark.parametrize("effort", Effort)
@@ -69,7 +74,7 @@ def test_more_effort_gives_shorter_words() -> None:
 def test_every_coded_symbol_costs_what_limits_assume(effort: Effort) -> None:
     faces = sample.torus(80_000).faces
     word = encode(faces, effort)
-    n_coded = len(word.symbols) - word.counts.n_specials - 1
+    n_coded = len(word.symbols) - 1
     assert n_coded * CHEAPEST_SYMBOL <= 8 * len(word.word) + 8
 
 
@@ -81,27 +86,17 @@ def test_single_triangles_are_free() -> None:
 
 @given(
     st.binary(max_size=200),
-    st.integers(0, 500),
-    st.integers(0, 3),
-    st.integers(0, 3),
-    st.lists(st.tuples(st.integers(0, 500), st.integers(0, 1000)), max_size=4),
+    st.tuples(st.integers(0, 500), *[st.integers(0, 3)] * 2, st.integers(0, 9)),
     EFFORTS,
 )
 def test_any_bytes_decode_or_are_refused(
-    data: bytes,
-    n_symbols: int,
-    n_closed: int,
-    n_single: int,
-    specials: list[tuple[int, int]],
-    effort: Effort,
+    data: bytes, counts: tuple[int, int, int, int], effort: Effort
 ) -> None:
-    pairs = np.array(sorted(dict(specials).items()), np.int64).reshape(-1)
     try:
-        symbols, opposite, _, _ = _kernels.decode_adaptive(
-            np.frombuffer(data, np.uint8), n_symbols, n_closed, n_single, pairs, effort
-        )
+        arrays, specials = _kernels.decode_adaptive(np.frombuffer(data, np.uint8), *counts, effort)
     except CorruptError:
         return
-    assert len(symbols) == n_symbols
+    symbols, opposite, _, _ = arrays
+    assert (len(symbols), len(specials)) == (counts[0], 2 * counts[3])
     inner = np.flatnonzero(opposite >= 0)
     assert np.array_equal(opposite[opposite[inner]], inner)

@@ -1,49 +1,82 @@
+#include <algorithm>
+
 #include "adaptive_words.hpp"
 #include "connectivity.hpp"
 #include "errors.hpp"
+#include "special_coder.hpp"
 #include "specials.hpp"
 
 namespace ebz {
 
 namespace {
 
-// Runs the reverse construction and codes each symbol that it does not determine.
+// The word as far as it is known: all of it when encoding.
+struct Symbols {
+    std::vector<uint8_t> symbols;
+    std::vector<SpecialS> specials;  // decoded: by falling position
+};
+
 template <class Model, class Coder>
-Reverse code_word(Coder& coder, const WordHeader& header, std::span<const SpecialS> specials,
-                  std::span<uint8_t> symbols) {
-    Reverse reverse(header.n_symbols, header.n_closed, header.n_single);
-    LoopStack loops;
-    SpecialsReversed reversed(specials);
-    Model model(header.n_symbols);
-    const Index first_single = header.n_symbols - header.n_single;
-    for (Index position = header.n_symbols - 1; position >= 0; --position) {
-        const int64_t meets = reversed.take(position);
-        const bool special = meets != none;
-        Symbol symbol = special ? S : E;
-        uint8_t left_degree = 0;
-        if (loops.size() > 0) {
-            left_degree = reverse.edge(reverse.gate()).degree;
-            if (!special && position < first_single) {
-                symbol = model.code(coder, static_cast<Symbol>(symbols[position]), WordView(reverse, loops));
-            }
-        }
-        if (Coder::encoding && symbols[position] != symbol) throw Corrupt("the word is not one of Edgebreaker's");
-        symbols[position] = symbol;
-        loops.apply(symbol, special);
-        reverse.apply(symbol, meets);
-        model.advance(symbols, position, left_degree);
+class WordCoder {
+public:
+    WordCoder(Coder& coder, const WordHeader& header, Index n_specials, Symbols& word)
+        : coder_(coder),
+          header_(header),
+          word_(word),
+          reverse_(header.n_symbols, header.n_closed, header.n_single),
+          special_coder_(n_specials, header.n_symbols),
+          known_specials_(word.specials),
+          model_(header.n_symbols) {}
+
+    // Runs the reverse construction and codes what that does not determine.
+    Reverse run() {
+        for (Index position = header_.n_symbols - 1; position >= 0; --position) step(position);
+        if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
+        return std::move(reverse_);
     }
-    if (!reversed.all_taken()) throw Corrupt("a special S lies outside the word");
-    return reverse;
-}
+
+private:
+    void step(Index position) {
+        int64_t meets = known_specials_.take(position);
+        const bool determined = loops_.size() == 0 || position >= header_.n_symbols - header_.n_single;
+        const uint8_t left_degree = loops_.size() == 0 ? 0 : reverse_.edge(reverse_.gate()).degree;
+        const Symbol symbol = determined ? E : code(position, meets);
+        if (Coder::encoding && word_.symbols[position] != symbol) throw Corrupt("no word of Edgebreaker's");
+        word_.symbols[position] = symbol;
+        loops_.apply(symbol, meets != none);
+        reverse_.apply(symbol, meets);
+        model_.advance(word_.symbols, position, left_degree);
+    }
+
+    Symbol code(Index position, int64_t& meets) {
+        WordView view(reverse_, loops_);
+        view.can_split |= special_coder_.any_left();
+        const Symbol symbol = model_.code(coder_, static_cast<Symbol>(word_.symbols[position]), view);
+        if (symbol != S || !special_coder_.any_left()) return symbol;
+        const bool special = loops_.size() < 2 || special_coder_.code_kind(coder_, meets != none);
+        if (!special) return symbol;
+        meets = special_coder_.code_meets(coder_, reverse_, position, meets);
+        if (!Coder::encoding) word_.specials.push_back({position, meets});
+        return symbol;
+    }
+
+    Coder& coder_;
+    const WordHeader& header_;
+    Symbols& word_;
+    Reverse reverse_;
+    LoopStack loops_;
+    SpecialCoder special_coder_;
+    SpecialsReversed known_specials_;
+    Model model_;
+};
 
 template <class Coder>
-Reverse code_word(Effort effort, Coder& coder, const WordHeader& header, std::span<const SpecialS> specials,
-                  std::span<uint8_t> symbols) {
+Reverse code_word(Effort effort, Coder& coder, const WordHeader& header, Index n_specials, Symbols& word) {
     switch (effort) {
-        case Effort::direct: return code_word<DirectModel>(coder, header, specials, symbols);
-        case Effort::fast: return code_word<MixedModel<FastContexts>>(coder, header, specials, symbols);
-        default: return code_word<MixedModel<StrongContexts>>(coder, header, specials, symbols);
+        case Effort::direct: return WordCoder<DirectModel, Coder>(coder, header, n_specials, word).run();
+        case Effort::fast:
+            return WordCoder<MixedModel<FastContexts>, Coder>(coder, header, n_specials, word).run();
+        default: return WordCoder<MixedModel<StrongContexts>, Coder>(coder, header, n_specials, word).run();
     }
 }
 
@@ -51,20 +84,21 @@ Reverse code_word(Effort effort, Coder& coder, const WordHeader& header, std::sp
 
 std::vector<uint8_t> encode_adaptive(std::span<const uint8_t> symbols, const WordHeader& header,
                                      std::span<const SpecialS> specials, Effort effort) {
-    std::vector<uint8_t> copy(symbols.begin(), symbols.end());
+    Symbols word{{symbols.begin(), symbols.end()}, {specials.begin(), specials.end()}};
     RangeEncoder coder;
-    code_word(effort, coder, header, specials, copy);
+    code_word(effort, coder, header, static_cast<Index>(specials.size()), word);
     return coder.finish();
 }
 
-DecodedConnectivity decode_adaptive(std::span<const uint8_t> bytes, const WordHeader& header,
-                                    std::span<const SpecialS> specials, Effort effort) {
-    DecodedConnectivity decoded;
-    decoded.symbols.resize(header.n_symbols);
+AdaptivelyDecoded decode_adaptive(std::span<const uint8_t> bytes, const WordHeader& header, Index n_specials,
+                                  Effort effort) {
+    Symbols word{std::vector<uint8_t>(header.n_symbols), {}};
     RangeDecoder coder(bytes);
-    Reverse reverse = code_word(effort, coder, header, specials, decoded.symbols);
-    decoded.connectivity.opposite = reverse.finish();
-    decoded.connectivity.fans = number_fans(decoded.connectivity.opposite);
+    Reverse reverse = code_word(effort, coder, header, n_specials, word);
+    AdaptivelyDecoded decoded{{std::move(word.symbols), {}}, std::move(word.specials)};
+    std::reverse(decoded.specials.begin(), decoded.specials.end());
+    decoded.word.connectivity.opposite = reverse.finish();
+    decoded.word.connectivity.fans = number_fans(decoded.word.connectivity.opposite);
     return decoded;
 }
 

@@ -15,11 +15,9 @@ namespace ebz {
 
 // One hash of a context's number and up to 96 bits.
 constexpr uint32_t context_hash(uint32_t context, uint32_t a, uint32_t b = 0, uint32_t c = 0) {
-    uint32_t h = context * 0x9E3779B1u;
-    h = (h ^ a) * 0x85EBCA6Bu;
-    h = ((h ^ h >> 13) ^ b) * 0xC2B2AE35u;
-    h = ((h ^ h >> 15) ^ c) * 0x27D4EB2Fu;
-    return (h ^ h >> 14) * 0x9E3779B1u;
+    uint64_t h = (uint64_t{context} << 32 | a) * 0x9E3779B97F4A7C15u + b * 0xC2B2AE3D27D4EB4Fu + c * 0xFF51AFD7ED558CCDu;
+    h = (h ^ h >> 29) * 0xBF58476D1CE4E5B9u;
+    return static_cast<uint32_t>(h >> 32);
 }
 
 // Bits side by side, four each but for the first.
@@ -30,38 +28,30 @@ constexpr uint32_t pack(uint32_t first, Nibble... nibbles) {
 }
 
 struct StrongContexts {
-    static constexpr int n = 24;
-    static constexpr int n_table_bits = 16;
+    static constexpr int n = 16;
+    static constexpr int n_table_bits = 18;
 
     static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
                      std::array<uint32_t, n>& h) {
-        const uint32_t r1 = past.recent(1), r2 = past.recent(2), r3 = past.recent(3);
+        const uint64_t past16 = past.recent(16);
         int i = 0;
         const auto add = [&](uint32_t a, uint32_t b = 0, uint32_t c = 0) { h[i] = context_hash(i, a, b, c), ++i; };
-        add(v.l0, v.can_close);
-        add(v.l0, r2);
-        add(pack(v.l0, v.r0), r1);
-        add(pack(v.l0, v.l1), r1);
-        add(r3, pack(past.since_close(), v.l0));
-        add(pack(v.l0, v.l1, v.r0, v.r1), v.can_close);
-        add(pack(std::min(v.length, 9u), std::min(v.conflict, 9u)), v.l0);
-        add(v.l0, past.closed_degrees(2));
-        add(pack(v.l0, v.l1, v.r0), r2);
+        add(v.l0, past.latest(2));
+        add(past.latest(3), pack(past.since_close(), v.l0));
+        add(past.latest(4), pack(v.l0, v.l1));
+        add(past.latest(10), v.l0);
+        add(static_cast<uint32_t>(past16), static_cast<uint32_t>(past16 >> 32), v.l0);
         add(pack(v.l0, v.l1, v.l2, v.r0), v.can_close);
+        add(pack(v.l0, v.l1, v.l2, v.l3, v.r0), past.closed_degrees(1));
+        add(pack(v.l0, v.l1, v.l2, v.r0, v.r1, v.r2), past.latest(3));
         add(pack(v.l0, v.r0, v.excess_l0), v.can_close);
         add(pack(v.l0, v.l1, v.excess_l0, v.excess_l1), v.excess_r0);
-        add(static_cast<uint32_t>(past.recent(10)), v.l0);
-        add(static_cast<uint32_t>(past.recent(16)), static_cast<uint32_t>(past.recent(16) >> 32), v.l0);
-        add(past.recent(4), pack(v.l0, v.l1));
-        add(past.recent(6), pack(v.l0, v.r0));
-        add(pack(v.l0, v.l1, v.l2, v.l3, v.r0), past.closed_degrees(1));
         add(v.l0, past.closed_degrees(3), past.since_close());
-        add(v.length << 5 | v.below_length, v.can_split, pack(v.below_l0, v.below_r0));
-        add(pack(v.l0, v.r0, v.r1, v.r2), r2);
-        add(pack(v.l0, v.l1, v.excess_l0), past.closed_degrees(1));
+        add(pack(std::min(v.length, 9u), std::min(v.conflict, 9u)), v.l0);
         add(pack(far.predicted(), far.confidence(), v.l0));
         add(pack(near.predicted(), near.confidence(), v.l0));
-        add(pack(v.l0, v.l1, v.l2, v.r0, v.r1, v.r2), r3);
+        add(pack(v.l0, v.l1, v.excess_l0, v.r0), past.closed_degrees(2));
+        add(past.latest(10), past.closed_degrees(6));
     }
 };
 
@@ -73,11 +63,11 @@ struct FastContexts {
                      std::array<uint32_t, n>& h) {
         int i = 0;
         const auto add = [&](uint32_t a, uint32_t b = 0, uint32_t c = 0) { h[i] = context_hash(i, a, b, c), ++i; };
-        add(v.l0, past.recent(2));
+        add(v.l0, past.latest(2));
         add(pack(v.l0, v.l1, v.r0, v.r1), v.can_close);
-        add(pack(v.l0, v.l1, v.l2, v.r0), past.recent(1));
-        add(past.recent(6), pack(v.l0, v.r0));
-        add(static_cast<uint32_t>(past.recent(10)), v.l0);
+        add(pack(v.l0, v.l1, v.l2, v.r0), past.latest(1));
+        add(past.latest(6), pack(v.l0, v.r0));
+        add(past.latest(10), v.l0);
         add(pack(v.l0, v.l1, v.excess_l0), past.closed_degrees(1));
         add(pack(far.predicted(), far.confidence(), v.l0));
     }
@@ -90,8 +80,9 @@ public:
     explicit MixedModel(Index n_symbols)
         : far_(20, n_symbols),
           near_(12, n_symbols),
-          tables_(n, EvidenceTable(std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) + 2, 10,
+          tables_(n, EvidenceTable(std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) - 2, 10,
                                                    Contexts::n_table_bits))),
+          by_known_(n_decisions * (n + 1), first_weight),
           by_symbols_(n_decisions * 128, first_weight),
           by_match_(n_decisions * 512, first_weight),
           refinement_(n_decisions * 256) {}
@@ -124,16 +115,20 @@ private:
     template <class Coder>
     bool decide(Coder& coder, int decision, bool bit, const WordView& view) {
         const int slot = decision % Evidence::n_decisions;
+        int n_known = 0;
         for (int i = 0; i < n; ++i) {
             const Estimate& e = evidence_[i]->estimates[slot];
+            n_known += e.count > 0;
             inputs_[i] = static_cast<int16_t>(stretch(e.p12()) * confidence[e.count] >> 8);
         }
+        by_known_.select(decision * (n + 1) + n_known);
         by_symbols_.select(decision * 128 + (view.l0 << 3 | history_.recent(1)));
         by_match_.select(decision * 512 + (far_.confidence() << 6 | near_.confidence() << 3 | std::min(history_.since_close(), 7u)));
-        const int mixed = (by_symbols_.mix(inputs_) + by_match_.mix(inputs_)) / 2;
+        const int mixed = (by_known_.mix(inputs_) + by_symbols_.mix(inputs_) + by_match_.mix(inputs_)) / 3;
         const int p = squash(mixed);
         const int refined = (p + refinement_.refine(decision * 256 + pack(view.l0, view.l1), mixed)) / 2;
-        bit = coder.bit(bit, static_cast<uint32_t>(std::clamp(refined, floor, 65536 - floor)));
+        bit = coder.bit(bit, bounded(refined));
+        by_known_.learn(inputs_, bit);
         by_symbols_.learn(inputs_, bit);
         by_match_.learn(inputs_, bit);
         refinement_.learn(bit);
@@ -147,7 +142,6 @@ private:
         estimate.learn(bit);
     }
 
-    static constexpr int floor = 12;
     // The sum of all weights is 1.6 at first.
     static constexpr int32_t first_weight = (8 << 16) / (5 * n);
     // In 2^-8; 0 for a context that is new.
@@ -160,7 +154,7 @@ private:
     WordHistory history_;
     MatchModel far_, near_;
     std::vector<EvidenceTable> tables_;
-    Mixer<n> by_symbols_, by_match_;
+    Mixer<n> by_known_, by_symbols_, by_match_;
     Refinement refinement_;
     std::array<uint32_t, n> hashes_{};
     std::array<Evidence*, n> evidence_{};
@@ -191,11 +185,7 @@ private:
 
     template <class Coder>
     bool decide(Coder& coder, int decision, uint32_t context, bool bit) {
-        Estimate& estimate = estimates_[decision << context_bits | context];
-        const uint32_t p = estimate.probability >> (Estimate::probability_bits - probability_bits);
-        bit = coder.bit(bit, std::clamp<uint32_t>(p, 12, 65524));
-        estimate.learn(bit);
-        return bit;
+        return estimates_[decision << context_bits | context].code(coder, bit);
     }
 
     std::vector<Estimate> estimates_;

@@ -57,15 +57,20 @@ std::vector<ebz::SpecialS> specials_from(const Input<int64_t>& pairs) {
     return specials;
 }
 
+std::vector<int64_t> to_pairs(const std::vector<ebz::SpecialS>& specials) {
+    std::vector<int64_t> pairs;
+    for (const ebz::SpecialS& s : specials) pairs.insert(pairs.end(), {s.position, s.meets});
+    return pairs;
+}
+
 std::tuple<Array<uint8_t>, Array<int64_t>, int32_t, int32_t, Array<int32_t>, Array<int32_t>, Array<int32_t>,
            Array<int32_t>>
 encode_connectivity(const Input<int32_t>& faces, int32_t n_vertices) {
     require_addressable(faces.size());
     ebz::EncodedConnectivity encoded =
         without_gil([&] { return ebz::encode_connectivity(view(faces), n_vertices); });
-    std::vector<int64_t> specials;
-    for (const ebz::SpecialS& s : encoded.word.specials) specials.insert(specials.end(), {s.position, s.meets});
-    return std::make_tuple(to_numpy(std::move(encoded.word.symbols)), to_numpy(std::move(specials)),
+    return std::make_tuple(to_numpy(std::move(encoded.word.symbols)),
+                          to_numpy(to_pairs(encoded.word.specials)),
                           encoded.word.n_closed, encoded.word.n_single,
                           to_numpy(std::move(encoded.word.gates)),
                           to_numpy(std::move(encoded.connectivity.opposite)),
@@ -120,13 +125,15 @@ nb::bytes encode_adaptive(const Input<uint8_t>& symbols, int64_t n_closed, int64
     }));
 }
 
-WordArrays decode_adaptive(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed, int64_t n_single,
-                           const Input<int64_t>& specials, int effort) {
+std::tuple<WordArrays, Array<int64_t>> decode_adaptive(const Input<uint8_t>& bytes, int64_t n_symbols,
+                                                       int64_t n_closed, int64_t n_single, int64_t n_specials,
+                                                       int effort) {
     const ebz::WordHeader header = word_header(n_symbols, n_closed, n_single);
-    return word_arrays(without_gil([&] {
-        return ebz::decode_adaptive(view(bytes), header, specials_from(specials),
+    ebz::AdaptivelyDecoded decoded = without_gil([&] {
+        return ebz::decode_adaptive(view(bytes), header, static_cast<ebz::Index>(n_specials),
                                     static_cast<ebz::Effort>(effort));
-    }));
+    });
+    return {word_arrays(std::move(decoded.word)), to_numpy(to_pairs(decoded.specials))};
 }
 
 template <class Model>
@@ -238,7 +245,8 @@ NB_MODULE(_kernels, m) {
     m.def("encode_adaptive", &encode_adaptive, "symbols"_a, "n_closed"_a, "n_single"_a, "specials"_a,
           "effort"_a, "The word in reverse order under an adaptive model.");
     m.def("decode_adaptive", &decode_adaptive, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
-          "specials"_a, "effort"_a, "What decode_connectivity gives, of a word under an adaptive model.");
+          "n_specials"_a, "effort"_a,
+          "What decode_connectivity gives and the specials, of a word under an adaptive model.");
     m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
           "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,

@@ -46,12 +46,17 @@ DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const Wo
 // How much work an adaptive model does per symbol.
 enum class Effort : uint8_t { direct = 1, fast, strong };
 
-// The word in reverse order under an adaptive model.  Costs nothing: a special S, the first symbol, and
-// those of single triangles; every other symbol costs more than 2^-12 bits.
+// The word in reverse order under an adaptive model, with what its special S meet.  The first symbol and
+// those of single triangles cost nothing; every other symbol costs more than 2^-12 bits.
 std::vector<uint8_t> encode_adaptive(std::span<const uint8_t> symbols, const WordHeader& header,
                                      std::span<const SpecialS> specials, Effort effort);
 
-DecodedConnectivity decode_adaptive(std::span<const uint8_t> bytes, const WordHeader& header,
-                                    std::span<const SpecialS> specials, Effort effort);
+struct AdaptivelyDecoded {
+    DecodedConnectivity word;
+    std::vector<SpecialS> specials;
+};
+
+AdaptivelyDecoded decode_adaptive(std::span<const uint8_t> bytes, const WordHeader& header, Index n_specials,
+                                  Effort effort);
 
 }  // namespace ebz

@@ -16,18 +16,33 @@
 
 namespace ebz {
 
+// Probabilities of a decision stay this far from 0 and 1, in 2^-16: it costs more than 2^-12 bits, which
+// bounds what a count may be.
+inline constexpr int least_share = 12;
+
+inline uint32_t bounded(int p) {
+    return static_cast<uint32_t>(std::clamp(p, least_share, (1 << probability_bits) - least_share));
+}
+
 // A probability in 2^-22 and how often it was met.
 struct Estimate {
-    static constexpr int probability_bits = 22;
     static constexpr uint32_t max_count = 255;
 
     uint32_t probability : 22 = 1u << 21;
     uint32_t count : 10 = 0;
 
     int p12() const { return static_cast<int>(probability >> 10); }
+    int p16() const { return static_cast<int>(probability >> 6); }
+
+    template <class Coder>
+    bool code(Coder& coder, bool bit) {
+        bit = coder.bit(bit, bounded(p16()));
+        learn(bit);
+        return bit;
+    }
 
     void learn(bool bit) {
-        const int64_t target = bit ? (1 << probability_bits) - 1 : 0;
+        const int64_t target = bit ? (1 << 22) - 1 : 0;
         const int64_t change = (target - probability) * rates[count];
         probability = static_cast<uint32_t>(probability + (change >> 16));
         count += count < max_count;
@@ -74,32 +89,39 @@ public:
     using Inputs = std::array<int16_t, n>;
 
     Mixer(size_t n_sets, int32_t weight) : sets_(n_sets) {
-        for (Set& set : sets_) set.weights.fill(weight);
+        for (Set& set : sets_) {
+            set.weights.fill(weight);
+            set.rounded.fill(static_cast<int16_t>(weight >> rounding_bits));
+        }
     }
 
     void select(size_t set) { selected_ = &sets_[set]; }
 
     int mix(const Inputs& inputs) {
-        int64_t sum = 0;
-        for (int i = 0; i < n; ++i) sum += static_cast<int64_t>(selected_->weights[i]) * inputs[i];
-        mixed_ = static_cast<int>(std::clamp<int64_t>(sum >> weight_bits, -stretch_limit, stretch_limit));
+        int32_t sum = 0;
+        for (int i = 0; i < n; ++i) sum += selected_->rounded[i] * inputs[i];
+        mixed_ = std::clamp(sum >> (weight_bits - rounding_bits), -stretch_limit, stretch_limit);
         return mixed_;
     }
 
     // Gradient descent on the code length.
     void learn(const Inputs& inputs, bool bit) {
         const int error = (bit << probability_bits) - squash(mixed_);
-        const int step = (error * rates[selected_->count]) >> 12;  // 17 + 11 bits
+        const int16_t step = static_cast<int16_t>((error * rates[selected_->count]) >> 12);  // 17 + 11 bits
         selected_->count = std::min(selected_->count + 1, max_count);
+        Set& set = *selected_;
         for (int i = 0; i < n; ++i) {
-            const int32_t weight = selected_->weights[i] + ((inputs[i] * step + (1 << 11)) >> 12);
-            selected_->weights[i] = std::clamp(weight, -max_weight, max_weight);
+            const int32_t weight = set.weights[i] + ((inputs[i] * step + (1 << 11)) >> 12);
+            set.weights[i] = std::clamp(weight, -max_weight, max_weight);
+            set.rounded[i] = static_cast<int16_t>(set.weights[i] >> rounding_bits);
         }
     }
 
 private:
-    static constexpr int weight_bits = 16;
-    static constexpr int32_t max_weight = 8 << weight_bits;
+    static constexpr int weight_bits = 16, rounding_bits = 4;
+    // Below 8, so that rounded weights fit 16 bits and n products with inputs fit 31.
+    static constexpr int32_t max_weight = (8 << weight_bits) - 1;
+    static_assert(int64_t{n} * (max_weight >> rounding_bits) * stretch_limit < INT32_MAX);
     static constexpr int max_count = 255;
     // In 2^-16: 0.002 in the long run, 0.017 at first.
     static constexpr auto rates = [] {
@@ -109,7 +131,8 @@ private:
     }();
 
     struct Set {
-        std::array<int32_t, n> weights;
+        std::array<int32_t, n> weights;  // what learns
+        std::array<int16_t, n> rounded;  // what mixes
         int count = 0;
     };
 

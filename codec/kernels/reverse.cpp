@@ -132,6 +132,7 @@ void Reverse::splice(Index g, Index met) {
 
 Index Reverse::half_edge_met(int64_t meets) const {
     // Everything built since the loop below was last touched belongs to the component of the top loop.
+    if (stack_.empty()) throw Corrupt("the word needs a loop where there is none");
     const int64_t end = stack_.size() > 1 ? stack_[stack_.size() - 2].front : n_triangles_ - n_closed_;
     if (meets / 2 <= triangle_ - n_closed_ || meets / 2 >= end) {
         throw Corrupt("a special S meets a triangle out of range");
@@ -140,6 +141,13 @@ Index Reverse::half_edge_met(int64_t meets) const {
     const Index met = static_cast<Index>(3 * triangle + 1 + meets % 2);
     if (opposite_[met] != none) throw Corrupt("a special S meets an edge that is taken");
     return met;
+}
+
+int64_t Reverse::met_along_loop(Index n_steps, bool to_left) const {
+    Index h = top();
+    for (; n_steps > 0; --n_steps) h = to_left ? previous_of(h) : next_of(h);
+    if (h % 3 == 0) throw Corrupt("a special S meets a gate");
+    return 2 * (static_cast<int64_t>(h / 3) - n_closed_) + (h % 3 == 2);
 }
 
 std::vector<Index> Reverse::finish() {

@@ -36,11 +36,17 @@ public:
     // The gate of a loop, the top one if nothing lies above it; it must be there.
     Index gate(size_t below = 0) const { return stack_[stack_.size() - 1 - below].gate; }
 
+    // The half-edge some steps along the top loop from its gate, as in SpecialS.
+    int64_t met_along_loop(Index n_steps, bool to_left) const;
+    Index half_edge_met(int64_t meets) const;
+
     // A half-edge on a loop.
     const LoopEdge& edge(Index h) const { return loops_[h]; }
 
     // Adds the first triangles of the closed components; the opposite of each half-edge in output order.
     std::vector<Index> finish();
+
+    Index n_closed() const { return n_closed_; }
 
 private:
     struct Active {
@@ -54,7 +60,6 @@ private:
     void close();
     void split(Index met);
     void splice(Index g, Index met);
-    Index half_edge_met(int64_t meets) const;
     Index top() const;
     void match(Index h, Index g);
     void link(Index h, Index g);

@@ -15,6 +15,7 @@ class WordHistory {
 public:
     // Three bits per symbol, 1 to 5, the latest lowest; 0 before the first.
     uint64_t recent(int n = 21) const { return recent_ & ((uint64_t{1} << (3 * n)) - 1); }
+    uint32_t latest(int n) const { return static_cast<uint32_t>(recent(n)); }  // n <= 10
 
     // Four bits each, the latest lowest.
     uint32_t closed_degrees(int n) const { return closed_degrees_ & ((uint32_t{1} << (4 * n)) - 1); }

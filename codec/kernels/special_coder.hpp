@@ -1,0 +1,107 @@
+// Where the left edge of a special S meets the surface built so far.
+//
+// Mostly that is a few steps along the top loop: a hole's boundary, or the way around a handle.  Else it
+// is told how far back in the word the triangle is.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "context_mixing.hpp"
+#include "errors.hpp"
+#include "reverse.hpp"
+
+namespace ebz {
+
+// Exp-Golomb codes whose widths are learnt from the first value on.
+class FewIntegers {
+public:
+    template <class Coder>
+    uint64_t code(Coder& coder, uint64_t value) {
+        const int width = std::bit_width(value + 1) - 1;
+        int n_bits = 0;
+        while (n_bits < max_bits && more_[n_bits].code(coder, n_bits < width)) ++n_bits;
+        uint64_t decoded = 1;
+        for (int left = n_bits; left > 0;) {
+            const int n = std::min(left, 16);
+            left -= n;
+            decoded = decoded << n | coder.raw(static_cast<uint32_t>((value + 1) >> left) & ((1u << n) - 1), n);
+        }
+        return decoded - 1;
+    }
+
+private:
+    static constexpr int max_bits = 40;  // more than any position needs
+    std::array<Estimate, max_bits> more_;
+};
+
+class SpecialCoder {
+public:
+    SpecialCoder(Index n_specials, Index n_symbols) : n_left_(n_specials), n_symbols_(n_symbols) {}
+
+    bool any_left() const { return n_left_ > 0; }
+
+    // Whether an S that could also be ordinary is special.
+    template <class Coder>
+    bool code_kind(Coder& coder, bool special) { return special_.code(coder, special); }
+
+    // What the S at `position` meets; decoders pass anything.
+    template <class Coder>
+    int64_t code_meets(Coder& coder, const Reverse& reverse, Index position, int64_t meets) {
+        --n_left_;
+        Path path;
+        if constexpr (Coder::encoding) path = find(reverse, reverse.half_edge_met(meets));
+        if (!on_loop_.code(coder, path.n_steps > 0)) return code_far(coder, position, meets);
+        path.to_left = to_left_.code(coder, path.to_left);
+        const uint64_t n_steps = steps_[path.to_left].code(coder, static_cast<uint64_t>(path.n_steps - least_steps)) + least_steps;
+        // Walking takes linear time in all.
+        if (n_steps > static_cast<uint64_t>(steps_left_)) throw Corrupt("special S walk too far along their loops");
+        steps_left_ -= static_cast<int64_t>(n_steps);
+        return reverse.met_along_loop(static_cast<Index>(n_steps), path.to_left);
+    }
+
+private:
+    static constexpr int64_t steps_per_symbol = 16;
+    static constexpr int least_steps = 2;  // the neighbours cannot be met
+
+    struct Path {
+        int64_t n_steps = 0;  // 0: not found
+        bool to_left = false;
+    };
+
+    // The shorter way, left where they tie; the search counts against the same budget as the walks, so
+    // what is found stays within it.
+    Path find(const Reverse& reverse, Index met) {
+        const Index gate = reverse.gate();
+        Index left = gate, right = gate;
+        for (int64_t n_steps = 1; n_steps <= search_left_; ++n_steps) {
+            left = reverse.edge(left).previous;
+            right = reverse.edge(right).next;
+            const bool found = left == met || right == met;
+            if (found || left == gate) {
+                search_left_ -= n_steps;
+                return {found ? n_steps : 0, left == met};
+            }
+        }
+        search_left_ = 0;
+        return {};
+    }
+
+    template <class Coder>
+    int64_t code_far(Coder& coder, Index position, int64_t meets) {
+        const int64_t nearest = 2 * (static_cast<int64_t>(position) + 1);
+        const uint64_t ahead = far_.code(coder, static_cast<uint64_t>(meets - nearest));
+        if (ahead >= 2 * static_cast<uint64_t>(n_symbols_)) throw Corrupt("a special S meets a triangle out of range");
+        return nearest + static_cast<int64_t>(ahead);
+    }
+
+    int64_t n_left_, n_symbols_;
+    int64_t steps_left_ = steps_per_symbol * n_symbols_;
+    int64_t search_left_ = steps_left_;
+    Estimate special_, on_loop_, to_left_;
+    std::array<FewIntegers, 2> steps_;
+    FewIntegers far_;
+};
+
+}  // namespace ebz
