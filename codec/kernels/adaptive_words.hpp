@@ -9,6 +9,7 @@
 
 #include "context_mixing.hpp"
 #include "match_model.hpp"
+#include "word_priors.hpp"
 #include "word_view.hpp"
 
 namespace ebz {
@@ -28,7 +29,8 @@ constexpr uint32_t pack(uint32_t first, Nibble... nibbles) {
 }
 
 struct StrongContexts {
-    static constexpr int n = 16;
+    static constexpr const auto& prior = strong_prior;
+    static constexpr int n = 16, of_lengths = 11;
     static constexpr int n_table_bits = 18;
 
     static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
@@ -56,7 +58,8 @@ struct StrongContexts {
 };
 
 struct FastContexts {
-    static constexpr int n = 7;
+    static constexpr const auto& prior = fast_prior;
+    static constexpr int n = 7, of_lengths = -1;
     static constexpr int n_table_bits = 14;
 
     static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
@@ -82,20 +85,24 @@ public:
           near_(12, n_symbols),
           tables_(n, EvidenceTable(std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) - 2, 10,
                                                    Contexts::n_table_bits))),
-          by_known_(n_decisions * (n + 1), first_weight),
-          by_symbols_(n_decisions * 128, first_weight),
-          by_match_(n_decisions * 512, first_weight),
-          refinement_(n_decisions * 256) {}
+          by_known_(n_decisions * (n + 1)),
+          by_symbols_(n_decisions * 128),
+          by_match_(n_decisions * 512),
+          by_degrees_(n_decisions * 256),
+          by_length_(n_decisions * 256) {
+        start_weights();
+        start_estimates();
+    }
 
     template <class Coder>
     Symbol code(Coder& coder, Symbol symbol, const WordView& view) {
         Contexts::hash(view, history_, near_, far_, hashes_);
-        find(0);
+        find(0, 0);
         if (view.can_close && decide(coder, 0, symbol == C, view)) return C;
         if (decide(coder, 1, symbol == R, view)) return R;
         if (decide(coder, 2, symbol == L, view)) return L;
         if (!view.can_split) return E;
-        find(1);
+        find(3, view.below_length);
         return decide(coder, 3, symbol == S, view) ? S : E;
     }
 
@@ -106,18 +113,53 @@ public:
     }
 
 private:
-    static constexpr int n = Contexts::n, n_decisions = 4;
+    friend struct Training;
 
-    void find(uint32_t salt) {
-        for (int i = 0; i < n; ++i) evidence_[i] = &tables_[i].find(hashes_[i] + salt * 0x632BE5ABu);
+    static constexpr int n = Contexts::n;
+
+    void start_weights() {
+        const MixingPrior<n>& prior = Contexts::prior;
+        for (size_t d = 0; d < n_decisions; ++d) {
+            for (size_t k = 0; k <= n; ++k) by_known_.start(d * (n + 1) + k, prior.by_known[d][k]);
+            for (size_t k = 0; k < 128; ++k) by_symbols_.start(d * 128 + k, prior.weights[d]);
+            for (size_t k = 0; k < 512; ++k) by_match_.start(d * 512 + k, prior.weights[d]);
+        }
+    }
+
+    // The first context is that of DegreePrior.
+    void start_estimates() {
+        for (int d = 0; d < n_decisions; ++d) {
+            for (uint32_t degree = 0; degree < 16; ++degree) {
+                for (uint32_t latest = 0; latest < 64; ++latest) {
+                    const int prior = degree_prior[d][degree][latest];
+                    if (prior == 0) continue;
+                    Evidence& evidence = tables_[0].find(context_hash(0, degree, latest) + salt(d, 0));
+                    Estimate& estimate = evidence.estimates[slot(d)];
+                    estimate.probability = static_cast<uint32_t>(squash(prior * 16)) << 6;
+                    estimate.count = prior_count;
+                }
+            }
+        }
+    }
+
+    // S or E has evidence of its own; that of a context may also know the loop below.
+    static constexpr int slot(int decision) { return decision % Evidence::n_decisions; }
+    static constexpr uint32_t salt(int decision, uint32_t below_length) {
+        return decision < Evidence::n_decisions ? 0 : 0x632BE5ABu * (1 + below_length);
+    }
+
+    void find(int decision, uint32_t below_length) {
+        for (int i = 0; i < n; ++i) {
+            const uint32_t added = salt(decision, i == Contexts::of_lengths ? below_length : 0);
+            evidence_[i] = &tables_[i].find(hashes_[i] + added);
+        }
     }
 
     template <class Coder>
     bool decide(Coder& coder, int decision, bool bit, const WordView& view) {
-        const int slot = decision % Evidence::n_decisions;
         int n_known = 0;
         for (int i = 0; i < n; ++i) {
-            const Estimate& e = evidence_[i]->estimates[slot];
+            const Estimate& e = evidence_[i]->estimates[slot(decision)];
             n_known += e.count > 0;
             inputs_[i] = static_cast<int16_t>(stretch(e.p12()) * confidence[e.count] >> 8);
         }
@@ -126,13 +168,16 @@ private:
         by_match_.select(decision * 512 + (far_.confidence() << 6 | near_.confidence() << 3 | std::min(history_.since_close(), 7u)));
         const int mixed = (by_known_.mix(inputs_) + by_symbols_.mix(inputs_) + by_match_.mix(inputs_)) / 3;
         const int p = squash(mixed);
-        const int refined = (p + refinement_.refine(decision * 256 + pack(view.l0, view.l1), mixed)) / 2;
+        const int by_degrees = by_degrees_.refine(decision * 256 + pack(view.l0, view.l1), mixed);
+        const int by_length = by_length_.refine(decision * 256 + pack(std::min(view.length, 15u), view.conflict), mixed);
+        const int refined = (2 * p + by_degrees + by_length) / 4;
         bit = coder.bit(bit, bounded(refined));
         by_known_.learn(inputs_, bit);
         by_symbols_.learn(inputs_, bit);
         by_match_.learn(inputs_, bit);
-        refinement_.learn(bit);
-        for (int i = 0; i < n; ++i) learn(evidence_[i]->estimates[slot], bit, p);
+        by_degrees_.learn(bit);
+        by_length_.learn(bit);
+        for (int i = 0; i < n; ++i) learn(evidence_[i]->estimates[slot(decision)], bit, p);
         return bit;
     }
 
@@ -142,8 +187,7 @@ private:
         estimate.learn(bit);
     }
 
-    // The sum of all weights is 1.6 at first.
-    static constexpr int32_t first_weight = (8 << 16) / (5 * n);
+    static constexpr uint32_t prior_count = 16;
     // In 2^-8; 0 for a context that is new.
     static constexpr auto confidence = [] {
         std::array<int, Estimate::max_count + 1> table{};
@@ -155,7 +199,7 @@ private:
     MatchModel far_, near_;
     std::vector<EvidenceTable> tables_;
     Mixer<n> by_known_, by_symbols_, by_match_;
-    Refinement refinement_;
+    Refinement by_degrees_, by_length_;
     std::array<uint32_t, n> hashes_{};
     std::array<Evidence*, n> evidence_{};
     typename Mixer<n>::Inputs inputs_{};
@@ -181,7 +225,7 @@ public:
     }
 
 private:
-    static constexpr int n_decisions = 4, context_bits = 13;
+    static constexpr int context_bits = 13;
 
     template <class Coder>
     bool decide(Coder& coder, int decision, uint32_t context, bool bit) {

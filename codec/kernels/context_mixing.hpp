@@ -88,10 +88,13 @@ class Mixer {
 public:
     using Inputs = std::array<int16_t, n>;
 
-    Mixer(size_t n_sets, int32_t weight) : sets_(n_sets) {
-        for (Set& set : sets_) {
-            set.weights.fill(weight);
-            set.rounded.fill(static_cast<int16_t>(weight >> rounding_bits));
+    explicit Mixer(size_t n_sets) : sets_(n_sets) {}
+
+    // Weights in 2^-10 to start from.
+    void start(size_t set, const std::array<int16_t, n>& weights) {
+        for (int i = 0; i < n; ++i) {
+            sets_[set].weights[i] = weights[i] * (1 << (weight_bits - 10));
+            sets_[set].rounded[i] = static_cast<int16_t>(sets_[set].weights[i] >> rounding_bits);
         }
     }
 
@@ -107,8 +110,8 @@ public:
     // Gradient descent on the code length.
     void learn(const Inputs& inputs, bool bit) {
         const int error = (bit << probability_bits) - squash(mixed_);
-        const int16_t step = static_cast<int16_t>((error * rates[selected_->count]) >> 12);  // 17 + 11 bits
-        selected_->count = std::min(selected_->count + 1, max_count);
+        const int16_t step = static_cast<int16_t>((error * rates[std::min(selected_->n_uses, max_count)]) >> 12);  // 17 + 11 bits
+        ++selected_->n_uses;
         Set& set = *selected_;
         for (int i = 0; i < n; ++i) {
             const int32_t weight = set.weights[i] + ((inputs[i] * step + (1 << 11)) >> 12);
@@ -118,6 +121,8 @@ public:
     }
 
 private:
+    friend struct Training;
+
     static constexpr int weight_bits = 16, rounding_bits = 4;
     // Below 8, so that rounded weights fit 16 bits and n products with inputs fit 31.
     static constexpr int32_t max_weight = (8 << weight_bits) - 1;
@@ -126,14 +131,14 @@ private:
     // In 2^-16: 0.002 in the long run, 0.017 at first.
     static constexpr auto rates = [] {
         std::array<int, max_count + 1> table{};
-        for (int uses = 0; uses <= max_count; ++uses) table[uses] = 131 + 983 * 16 / (16 + uses);
+        for (int uses = 0; uses <= max_count; ++uses) table[uses] = 150 + 1500 * 32 / (32 + uses);
         return table;
     }();
 
     struct Set {
         std::array<int32_t, n> weights;  // what learns
         std::array<int16_t, n> rounded;  // what mixes
-        int count = 0;
+        int n_uses = 0;                  // fewer than symbols
     };
 
     std::vector<Set> sets_;
