@@ -13,9 +13,9 @@ DEFAULT_TABLE = "stack"
 
 def word_effort(level: int) -> Effort:
     """How hard the adaptive model of the word works."""
-    if level < 3:
+    if level <= 3:
         return Effort.DIRECT
-    return Effort.FAST if level < 7 else Effort.STRONG
+    return Effort.FAST if level <= 6 else Effort.STRONG
 
 
 def word_models(level: int) -> list[WordModel]:

@@ -58,7 +58,9 @@ def _diagonals(n: int) -> Mesh:
     turned = np.random.default_rng(n).random(len(a)) < 0.5
     a, b, c, d = (np.where(turned, x, y) for x, y in zip((b, c, d, a), (a, b, c, d), strict=True))
     row, column = np.divmod(np.arange(side * side), side)
-    return _flat(np.stack([column, row], axis=1), np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3))
+    return _flat(
+        np.stack([column, row], axis=1), np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3)
+    )
 
 
 CELL = ((0, 0), (0, 1), (1, 1), (1, 0))
@@ -73,7 +75,9 @@ def write(path: Path, mesh: Mesh) -> None:
     counts = word.counts
     n_vertices = int(surface.vertex_of_piece.max(initial=-1)) + 1
     sizes = counts.n_symbols, counts.n_closed, counts.n_single, counts.n_specials, n_vertices
-    path.write_bytes(np.array(sizes, "<i4").tobytes() + word.symbols.tobytes() + word.specials.tobytes())
+    path.write_bytes(
+        np.array(sizes, "<i4").tobytes() + word.symbols.tobytes() + word.specials.tobytes()
+    )
 
 
 def main(folder: Path, files: list[str]) -> None:

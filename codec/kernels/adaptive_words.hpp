@@ -28,10 +28,19 @@ constexpr uint32_t pack(uint32_t first, Nibble... nibbles) {
     return first;
 }
 
+// An entry of DegreePrior as an estimate; 0 is no knowledge.
+inline Estimate starting_estimate(int prior) {
+    Estimate estimate;
+    estimate.probability = static_cast<uint32_t>(squash(prior * 16)) << 6;
+    estimate.count = prior == 0 ? 0 : 2;
+    return estimate;
+}
+
 struct StrongContexts {
     static constexpr const auto& prior = strong_prior;
     static constexpr int n = 16, of_lengths = 11;
     static constexpr int n_table_bits = 18;
+    static constexpr bool thorough = true;
 
     static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
                      std::array<uint32_t, n>& h) {
@@ -59,19 +68,19 @@ struct StrongContexts {
 
 struct FastContexts {
     static constexpr const auto& prior = fast_prior;
-    static constexpr int n = 7, of_lengths = -1;
+    static constexpr int n = 6, of_lengths = -1;
     static constexpr int n_table_bits = 14;
+    static constexpr bool thorough = false;
 
-    static void hash(const WordView& v, const WordHistory& past, const MatchModel& near, const MatchModel& far,
+    static void hash(const WordView& v, const WordHistory& past, const MatchModel&, const MatchModel& far,
                      std::array<uint32_t, n>& h) {
         int i = 0;
         const auto add = [&](uint32_t a, uint32_t b = 0, uint32_t c = 0) { h[i] = context_hash(i, a, b, c), ++i; };
         add(v.l0, past.latest(2));
         add(pack(v.l0, v.l1, v.r0, v.r1), v.can_close);
-        add(pack(v.l0, v.l1, v.l2, v.r0), past.latest(1));
         add(past.latest(6), pack(v.l0, v.r0));
         add(past.latest(10), v.l0);
-        add(pack(v.l0, v.l1, v.excess_l0), past.closed_degrees(1));
+        add(pack(v.l0, v.l1, v.excess_l0, v.r0), past.closed_degrees(2));
         add(pack(far.predicted(), far.confidence(), v.l0));
     }
 };
@@ -109,13 +118,14 @@ public:
     void advance(std::span<const uint8_t> symbols, Index position, uint32_t left_degree) {
         history_.advance(static_cast<Symbol>(symbols[position]), left_degree);
         far_.advance(symbols, position, history_.recent());
-        near_.advance(symbols, position, history_.recent());
+        if constexpr (thorough) near_.advance(symbols, position, history_.recent());
     }
 
 private:
     friend struct Training;
 
     static constexpr int n = Contexts::n;
+    static constexpr bool thorough = Contexts::thorough;
 
     void start_weights() {
         const MixingPrior<n>& prior = Contexts::prior;
@@ -134,9 +144,7 @@ private:
                     const int prior = degree_prior[d][degree][latest];
                     if (prior == 0) continue;
                     Evidence& evidence = tables_[0].find(context_hash(0, degree, latest) + salt(d, 0));
-                    Estimate& estimate = evidence.estimates[slot(d)];
-                    estimate.probability = static_cast<uint32_t>(squash(prior * 16)) << 6;
-                    estimate.count = prior_count;
+                    evidence.estimates[slot(d)] = starting_estimate(prior);
                 }
             }
         }
@@ -164,19 +172,29 @@ private:
             inputs_[i] = static_cast<int16_t>(stretch(e.p12()) * confidence[e.count] >> 8);
         }
         by_known_.select(decision * (n + 1) + n_known);
-        by_symbols_.select(decision * 128 + (view.l0 << 3 | history_.recent(1)));
-        by_match_.select(decision * 512 + (far_.confidence() << 6 | near_.confidence() << 3 | std::min(history_.since_close(), 7u)));
-        const int mixed = (by_known_.mix(inputs_) + by_symbols_.mix(inputs_) + by_match_.mix(inputs_)) / 3;
+        by_symbols_.select(decision * 128 + (view.l0 << 3 | history_.latest(1)));
+        int mixed = by_known_.mix(inputs_) + by_symbols_.mix(inputs_);
+        if constexpr (thorough) {
+            by_match_.select(decision * 512 + (far_.confidence() << 6 | near_.confidence() << 3 | std::min(history_.since_close(), 7u)));
+            mixed = (mixed + by_match_.mix(inputs_)) / 3;
+        } else {
+            mixed /= 2;
+        }
         const int p = squash(mixed);
-        const int by_degrees = by_degrees_.refine(decision * 256 + pack(view.l0, view.l1), mixed);
-        const int by_length = by_length_.refine(decision * 256 + pack(std::min(view.length, 15u), view.conflict), mixed);
-        const int refined = (2 * p + by_degrees + by_length) / 4;
+        int refined = p;
+        if constexpr (thorough) {
+            const int by_degrees = by_degrees_.refine(decision * 256 + pack(view.l0, view.l1), mixed);
+            const int by_length = by_length_.refine(decision * 256 + pack(std::min(view.length, 15u), view.conflict), mixed);
+            refined = (2 * p + by_degrees + by_length) / 4;
+        }
         bit = coder.bit(bit, bounded(refined));
         by_known_.learn(inputs_, bit);
         by_symbols_.learn(inputs_, bit);
-        by_match_.learn(inputs_, bit);
-        by_degrees_.learn(bit);
-        by_length_.learn(bit);
+        if constexpr (thorough) {
+            by_match_.learn(inputs_, bit);
+            by_degrees_.learn(bit);
+            by_length_.learn(bit);
+        }
         for (int i = 0; i < n; ++i) learn(evidence_[i]->estimates[slot(decision)], bit, p);
         return bit;
     }
@@ -187,7 +205,6 @@ private:
         estimate.learn(bit);
     }
 
-    static constexpr uint32_t prior_count = 16;
     // In 2^-8; 0 for a context that is new.
     static constexpr auto confidence = [] {
         std::array<int, Estimate::max_count + 1> table{};
@@ -205,19 +222,29 @@ private:
     typename Mixer<n>::Inputs inputs_{};
 };
 
-// The fastest: one context, no mixing.
+// The fastest: two contexts, the mean of their probabilities.
 class DirectModel {
 public:
-    explicit DirectModel(Index) : estimates_(n_decisions << context_bits) {}
+    explicit DirectModel(Index) {
+        for (size_t d = 0; d < n_decisions; ++d) {
+            for (size_t i = 0; i < n_contexts; ++i) {
+                // Both contexts begin with degree and latest two symbols, 3 more bits follow.
+                const Estimate start = starting_estimate(degree_prior[d][i >> 9][i >> 3 & 63]);
+                by_right_end_[d][i] = start;
+                by_symbols_[d][(i & ~size_t{511}) | (i >> 3 & 63) | (i & 7) << 6] = start;
+            }
+        }
+    }
 
     template <class Coder>
     Symbol code(Coder& coder, Symbol symbol, const WordView& view) {
-        const uint32_t context = view.l0 << 9 | static_cast<uint32_t>(recent_);
-        if (view.can_close && decide(coder, 0, context, symbol == C)) return C;
-        if (decide(coder, 1, context, symbol == R)) return R;
-        if (decide(coder, 2, context, symbol == L)) return L;
+        at_symbols_ = view.l0 << 9 | recent_;
+        at_right_end_ = view.l0 << 9 | (recent_ & 63) << 3 | (std::min(view.r0, 9u) - 2);
+        if (view.can_close && decide(coder, 0, symbol == C)) return C;
+        if (decide(coder, 1, symbol == R)) return R;
+        if (decide(coder, 2, symbol == L)) return L;
         if (!view.can_split) return E;
-        return decide(coder, 3, context, symbol == S) ? S : E;
+        return decide(coder, 3, symbol == S) ? S : E;
     }
 
     void advance(std::span<const uint8_t> symbols, Index position, uint32_t) {
@@ -225,16 +252,27 @@ public:
     }
 
 private:
-    static constexpr int context_bits = 13;
+    static constexpr size_t n_contexts = 1 << 13;
+    using Estimates = std::vector<Estimate>;
 
     template <class Coder>
-    bool decide(Coder& coder, int decision, uint32_t context, bool bit) {
-        return estimates_[decision << context_bits | context].code(coder, bit);
+    bool decide(Coder& coder, size_t decision, bool bit) {
+        Estimate& a = by_symbols_[decision][at_symbols_];
+        Estimate& b = by_right_end_[decision][at_right_end_];
+        bit = coder.bit(bit, bounded(squash((stretch(a.p12()) + stretch(b.p12())) * 9 / 16)));
+        a.learn(bit);
+        b.learn(bit);
+        return bit;
     }
 
-    std::vector<Estimate> estimates_;
-    uint32_t recent_ = 0;
+    std::array<Estimates, n_decisions> by_symbols_ = all(), by_right_end_ = all();
+    uint32_t recent_ = 0, at_symbols_ = 0, at_right_end_ = 0;
+
+    static std::array<Estimates, n_decisions> all() {
+        std::array<Estimates, n_decisions> tables;
+        tables.fill(Estimates(n_contexts));
+        return tables;
+    }
 };
 
 }  // namespace ebz
-

@@ -86,7 +86,9 @@ private:
 template <int n>
 class Mixer {
 public:
-    using Inputs = std::array<int16_t, n>;
+    // Whole vectors; those past n stay 0.
+    static constexpr int width = (n + 7) / 8 * 8;
+    struct alignas(16) Inputs : std::array<int16_t, width> {};
 
     explicit Mixer(size_t n_sets) : sets_(n_sets) {}
 
@@ -102,7 +104,7 @@ public:
 
     int mix(const Inputs& inputs) {
         int32_t sum = 0;
-        for (int i = 0; i < n; ++i) sum += selected_->rounded[i] * inputs[i];
+        for (int i = 0; i < width; ++i) sum += selected_->rounded[i] * inputs[i];
         mixed_ = std::clamp(sum >> (weight_bits - rounding_bits), -stretch_limit, stretch_limit);
         return mixed_;
     }
@@ -113,7 +115,7 @@ public:
         const int16_t step = static_cast<int16_t>((error * rates[std::min(selected_->n_uses, max_count)]) >> 12);  // 17 + 11 bits
         ++selected_->n_uses;
         Set& set = *selected_;
-        for (int i = 0; i < n; ++i) {
+        for (int i = 0; i < width; ++i) {
             const int32_t weight = set.weights[i] + ((inputs[i] * step + (1 << 11)) >> 12);
             set.weights[i] = std::clamp(weight, -max_weight, max_weight);
             set.rounded[i] = static_cast<int16_t>(set.weights[i] >> rounding_bits);
@@ -136,9 +138,9 @@ private:
     }();
 
     struct Set {
-        std::array<int32_t, n> weights;  // what learns
-        std::array<int16_t, n> rounded;  // what mixes
-        int n_uses = 0;                  // fewer than symbols
+        alignas(16) std::array<int32_t, width> weights{};  // what learns
+        alignas(16) std::array<int16_t, width> rounded{};  // what mixes
+        int n_uses = 0;                                     // fewer than symbols
     };
 
     std::vector<Set> sets_;

@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    static constexpr int n_bits = 16, max_length = 512, max_start = 32;
+    static constexpr int n_bits = 14, max_length = 512, max_start = 32;
 
     void start(std::span<const uint8_t> symbols, Index position, Index after) {
         at_ = after;
