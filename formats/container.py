@@ -193,7 +193,7 @@ def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
     needed = {
         layout.MODEL: header.model == layout.INLINE_MODEL,
         layout.WORD: header.n_symbols > 0,
-        layout.SPECIALS: header.n_specials > 0,
+        layout.SPECIALS: header.n_specials > 0 and header.model not in layout.ADAPTIVE_MODELS,
         layout.GLUING: header.n_copies > 0,
         layout.POSITIONS: header.n_vertices > 0,
         layout.EXCEPTIONS: header.n_exceptions > 0,

@@ -4,7 +4,7 @@ import math
 
 from ebz.codec.encoded import EncodedArray, EncodedMesh
 from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
-from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, STATE_BYTES
+from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
 
@@ -35,7 +35,7 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         with corrupt_at(encoded.place("rotations")):
             _check("rotations", counts.n_faces, CHEAPEST_BIT, streams.rotations)
     n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
-    size = 0 if isinstance(encoded.model, AnyTable) else STATE_BYTES
+    size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
     size += _arrays_size(encoded.face_attributes, counts.n_faces)
     size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "adaptive_words.hpp"
+#include "mixed_model.hpp"
 
 namespace ebz {
 

@@ -1,8 +1,9 @@
 #include <algorithm>
 
-#include "adaptive_words.hpp"
 #include "connectivity.hpp"
+#include "direct_model.hpp"
 #include "errors.hpp"
+#include "mixed_model.hpp"
 #include "special_coder.hpp"
 #include "specials.hpp"
 

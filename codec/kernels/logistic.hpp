@@ -1,7 +1,7 @@
 // Probabilities in the logistic domain, as integer tables.
 //
 // stretch(p) = ln(p / (1 - p)) in units of 1/256, squash is its inverse.  The tables come from + * / on
-// doubles at compile time, which IEEE rounds alike everywhere; their sums are asserted.
+// doubles at compile time, which IEEE rounds alike everywhere; their digests are asserted.
 // Reference: M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005.
 #pragma once
 
@@ -45,6 +45,15 @@ constexpr auto make_stretch() {
 }
 
 inline constexpr auto stretch_table = make_stretch();
+
+constexpr uint64_t digest(const auto& table) {
+    uint64_t sum = 0;
+    for (const auto value : table) sum = sum * 31 + static_cast<uint16_t>(value);
+    return sum;
+}
+
+static_assert(digest(squash_table) == 0xc269d253f3883a80);
+static_assert(digest(stretch_table) == 0x07a3094cf3ac11c9);
 
 }  // namespace logistic
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -56,7 +57,10 @@ private:
     }
 
     static uint32_t confidence_of(int length) {
-        return 1 + (length > 15) + (length > 20) + (length > 24) + (length > 31) + (length > 100) + (length > 400);
+        constexpr std::array limits{15, 20, 24, 31, 100, 400};
+        uint32_t passed = 1;
+        for (const int limit : limits) passed += length > limit;
+        return passed;
     }
 
     int n_context_;

@@ -143,7 +143,7 @@ Index Reverse::half_edge_met(int64_t meets) const {
     return met;
 }
 
-int64_t Reverse::met_along_loop(Index n_steps, bool to_left) const {
+int64_t Reverse::met_along_loop(int64_t n_steps, bool to_left) const {
     Index h = top();
     for (; n_steps > 0; --n_steps) h = to_left ? previous_of(h) : next_of(h);
     if (h % 3 == 0) throw Corrupt("a special S meets a gate");

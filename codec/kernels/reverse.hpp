@@ -37,7 +37,7 @@ public:
     Index gate(size_t below = 0) const { return stack_[stack_.size() - 1 - below].gate; }
 
     // The half-edge some steps along the top loop from its gate, as in SpecialS.
-    int64_t met_along_loop(Index n_steps, bool to_left) const;
+    int64_t met_along_loop(int64_t n_steps, bool to_left) const;
     Index half_edge_met(int64_t meets) const;
 
     // A half-edge on a loop.

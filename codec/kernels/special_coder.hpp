@@ -26,7 +26,8 @@ public:
         for (int left = n_bits; left > 0;) {
             const int n = std::min(left, 16);
             left -= n;
-            decoded = decoded << n | coder.raw(static_cast<uint32_t>((value + 1) >> left) & ((1u << n) - 1), n);
+            const uint32_t low = static_cast<uint32_t>((value + 1) >> left) & ((1u << n) - 1);
+            decoded = decoded << n | coder.raw(low, n);
         }
         return decoded - 1;
     }
@@ -54,11 +55,12 @@ public:
         if constexpr (Coder::encoding) path = find(reverse, reverse.half_edge_met(meets));
         if (!on_loop_.code(coder, path.n_steps > 0)) return code_far(coder, position, meets);
         path.to_left = to_left_.code(coder, path.to_left);
-        const uint64_t n_steps = steps_[path.to_left].code(coder, static_cast<uint64_t>(path.n_steps - least_steps)) + least_steps;
+        const uint64_t more_steps = static_cast<uint64_t>(path.n_steps - least_steps);
+        const int64_t n_steps = static_cast<int64_t>(steps_[path.to_left].code(coder, more_steps)) + least_steps;
         // Walking takes linear time in all.
-        if (n_steps > static_cast<uint64_t>(steps_left_)) throw Corrupt("special S walk too far along their loops");
-        steps_left_ -= static_cast<int64_t>(n_steps);
-        return reverse.met_along_loop(static_cast<Index>(n_steps), path.to_left);
+        if (n_steps > steps_left_) throw Corrupt("special S walk too far along their loops");
+        steps_left_ -= n_steps;
+        return reverse.met_along_loop(n_steps, path.to_left);
     }
 
 private:
@@ -92,7 +94,9 @@ private:
     int64_t code_far(Coder& coder, Index position, int64_t meets) {
         const int64_t nearest = 2 * (static_cast<int64_t>(position) + 1);
         const uint64_t ahead = far_.code(coder, static_cast<uint64_t>(meets - nearest));
-        if (ahead >= 2 * static_cast<uint64_t>(n_symbols_)) throw Corrupt("a special S meets a triangle out of range");
+        if (ahead >= 2 * static_cast<uint64_t>(n_symbols_)) {
+            throw Corrupt("a special S meets a triangle out of range");
+        }
         return nearest + static_cast<int64_t>(ahead);
     }
 

@@ -20,5 +20,8 @@ class Effort(enum.IntEnum):
 # A decision's probability is at most this (least_share in codec/kernels/context_mixing.hpp), and
 # every symbol that is not determined takes one decision at least: more than 2^-12 bits.
 CHEAPEST_SYMBOL = math.log2(65536 / (65536 - 12))
-# Memory of the mixed models at their largest.
-STATE_BYTES = 40 << 20
+
+
+def state_bytes(n_symbols: int) -> int:
+    """Memory of the largest model, at most: 16 tables of 2^18 slots of 16 bytes, or fewer slots."""
+    return (4 << 20) + min(256 << 18, 128 * n_symbols)

@@ -1,0 +1,158 @@
+// An adaptive model of the reverse word: mixed contexts of what both sides know.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "context_mixing.hpp"
+#include "word_contexts.hpp"
+
+namespace ebz {
+
+// Decisions in turn: C or not, R or not, L or not, S or E.
+template <class Contexts>
+class MixedModel {
+public:
+    explicit MixedModel(Index n_symbols)
+        : far_(20, n_symbols),
+          near_(12, n_symbols),
+          tables_(n, EvidenceTable(std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) - 2, 10,
+                                                   Contexts::n_table_bits))),
+          by_known_(n_decisions * (n + 1)),
+          by_symbols_(n_decisions * 128),
+          by_match_(thorough ? n_decisions * 512 : 0),
+          by_degrees_(thorough ? n_decisions * 256 : 0),
+          by_loop_(thorough ? n_decisions * 256 : 0) {
+        start_weights();
+        start_estimates();
+    }
+
+    template <class Coder>
+    Symbol code(Coder& coder, Symbol symbol, const WordView& view) {
+        Contexts::hash(view, history_, near_, far_, hashes_);
+        find(0, 0);
+        if (view.can_close && decide(coder, 0, symbol == C, view)) return C;
+        if (decide(coder, 1, symbol == R, view)) return R;
+        if (decide(coder, 2, symbol == L, view)) return L;
+        if (!view.can_split) return E;
+        find(3, view.below_length);
+        return decide(coder, 3, symbol == S, view) ? S : E;
+    }
+
+    void advance(std::span<const uint8_t> symbols, Index position, uint32_t left_degree) {
+        history_.advance(static_cast<Symbol>(symbols[position]), left_degree);
+        far_.advance(symbols, position, history_.recent());
+        if constexpr (thorough) near_.advance(symbols, position, history_.recent());
+    }
+
+private:
+    friend struct Training;
+
+    static constexpr int n = Contexts::n;
+    static constexpr bool thorough = Contexts::thorough;
+
+    void start_weights() {
+        const MixingPrior<n>& prior = Contexts::prior;
+        for (size_t d = 0; d < n_decisions; ++d) {
+            for (size_t k = 0; k <= n; ++k) by_known_.start(d * (n + 1) + k, prior.by_known[d][k]);
+            for (size_t k = 0; k < 128; ++k) by_symbols_.start(d * 128 + k, prior.weights[d]);
+            for (size_t k = 0; thorough && k < 512; ++k) by_match_.start(d * 512 + k, prior.weights[d]);
+        }
+    }
+
+    // The first context is that of DegreePrior.
+    void start_estimates() {
+        for (int d = 0; d < n_decisions; ++d) {
+            for (uint32_t degree = 0; degree < 16; ++degree) {
+                for (uint32_t latest = 0; latest < 64; ++latest) {
+                    const int prior = degree_prior[d][degree][latest];
+                    if (prior == 0) continue;
+                    Evidence& evidence = tables_[0].find(context_hash(0, degree, latest) + salt(d, 0));
+                    evidence.estimates[slot(d)] = starting_estimate(prior);
+                }
+            }
+        }
+    }
+
+    // S or E has evidence of its own; that of a context may also know the loop below.
+    static constexpr int slot(int decision) { return decision % Evidence::n_decisions; }
+    static constexpr uint32_t salt(int decision, uint32_t below_length) {
+        return decision < Evidence::n_decisions ? 0 : 0x632BE5ABu * (1 + below_length);
+    }
+
+    void find(int decision, uint32_t below_length) {
+        for (int i = 0; i < n; ++i) {
+            const uint32_t added = salt(decision, i == Contexts::of_lengths ? below_length : 0);
+            evidence_[i] = &tables_[i].find(hashes_[i] + added);
+        }
+    }
+
+    template <class Coder>
+    bool decide(Coder& coder, int decision, bool bit, const WordView& view) {
+        int n_known = 0;
+        for (int i = 0; i < n; ++i) {
+            const Estimate& e = evidence_[i]->estimates[slot(decision)];
+            n_known += e.count > 0;
+            inputs_[i] = static_cast<int16_t>(stretch(e.p12()) * confidence[e.count] >> 8);
+        }
+        by_known_.select(decision * (n + 1) + n_known);
+        by_symbols_.select(decision * 128 + (view.l0 << 3 | history_.latest(1)));
+        int mixed = by_known_.mix(inputs_) + by_symbols_.mix(inputs_);
+        if constexpr (thorough) {
+            const uint32_t matches = far_.confidence() << 3 | near_.confidence();
+            by_match_.select(decision * 512 + (matches << 3 | std::min(history_.since_close(), 7u)));
+            mixed = (mixed + by_match_.mix(inputs_)) / 3;
+        } else {
+            mixed /= 2;
+        }
+        const int p = squash(mixed);
+        int refined = p;
+        if constexpr (thorough) {
+            const uint32_t degrees = pack(view.l0, view.l1);
+            const uint32_t loop = pack(std::min(view.length, 15u), view.conflict);
+            refined = (2 * p + by_degrees_.refine(decision * 256 + degrees, mixed) +
+                       by_loop_.refine(decision * 256 + loop, mixed)) / 4;
+        }
+        bit = coder.bit(bit, bounded(refined));
+        by_known_.learn(inputs_, bit);
+        by_symbols_.learn(inputs_, bit);
+        if constexpr (thorough) {
+            by_match_.learn(inputs_, bit);
+            by_degrees_.learn(bit);
+            by_loop_.learn(bit);
+        }
+        for (int i = 0; i < n; ++i) learn(evidence_[i]->estimates[slot(decision)], bit, p);
+        return bit;
+    }
+
+    // A new context starts from what was predicted without it.
+    static void learn(Estimate& estimate, bool bit, int predicted) {
+        if (estimate.count == 0) {
+            // Within 0.02 of 0 and 1: one meeting decides little.
+            estimate.probability = static_cast<uint32_t>(std::clamp(predicted, 1311, 64225)) << 6;
+        }
+        estimate.learn(bit);
+    }
+
+    // In 2^-8; 0 for a context that is new.
+    static constexpr auto confidence = [] {
+        std::array<int, Estimate::max_count + 1> table{};
+        for (size_t n = 1; n < table.size(); ++n) table[n] = static_cast<int>(256 * (2 * n + 9) / (2 * n + 14));
+        return table;
+    }();
+
+    WordHistory history_;
+    MatchModel far_, near_;
+    std::vector<EvidenceTable> tables_;
+    Mixer<n> by_known_, by_symbols_, by_match_;
+    Refinement by_degrees_, by_loop_;
+    std::array<uint32_t, n> hashes_{};
+    std::array<Evidence*, n> evidence_{};
+    typename Mixer<n>::Inputs inputs_{};
+};
+
+}  // namespace ebz
