@@ -1,0 +1,164 @@
+"""Short Python twins of the coder, the adaptive integers and the decoder agree with the kernels."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import ebz
+from ebz.codec import _kernels, connectivity
+from ebz.codec.integers import decode_columns, encode_columns, zigzag
+from ebz.codec.models.table import Table, table_names
+from ebz.codec.sample import random_triangulation
+from ebz.formats import container
+from tests.meshes import face_lists, meshes, rngs, surfaces
+from tests.oracles import integers, reverse
+from tests.oracles.range_coder import Decoder, Encoder
+
+TABLE = Table.load("loop-60")
+
+widths = st.integers(0, 64).flatmap(lambda bits: st.integers(0, 2**bits - 1))
+rows = st.integers(1, 3).flatmap(
+    lambda n: st.lists(st.lists(widths, min_size=n, max_size=n), min_size=1, max_size=60)
+)
+
+
+@settings(max_examples=100, deadline=None)
+@given(rows)
+def test_integers_are_coded_alike(values):
+    data = integers.encode(values)
+    assert encode_columns(*np.array(values, np.uint64).T) == data
+    assert integers.decode(data, len(values), len(values[0])) == values
+    columns = decode_columns(data, len(values), len(values[0]))
+    assert np.array_equal(np.column_stack(columns), np.array(values, np.uint64))
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.integers(1, 2000), st.sampled_from([0, 1, 2**64 - 1]))
+def test_runs_of_one_value_are_coded_alike(n, value):
+    data = integers.encode([[value]] * n)
+    assert encode_columns(np.full(n, value, np.uint64)) == data
+    assert integers.decode(data, n, 1) == [[value]] * n
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.binary(max_size=40), st.integers(1, 40), st.integers(1, 3))
+def test_any_bytes_are_decoded_alike(data, n_rows, n_columns):
+    columns = decode_columns(data, n_rows, n_columns)
+    assert np.column_stack(columns).tolist() == integers.decode(data, n_rows, n_columns)
+
+
+operations = st.lists(
+    st.tuples(st.just("bit"), st.booleans(), st.integers(1, 2**16 - 1))
+    | st.integers(1, 16).flatmap(
+        lambda bits: st.tuples(st.just("raw"), st.integers(0, 2**bits - 1), st.just(bits))
+    ),
+    max_size=80,
+)
+
+
+@settings(max_examples=100, deadline=None)
+@given(operations)
+def test_the_twin_decodes_what_it_encodes(messages):
+    encoder = Encoder()
+    for kind, value, parameter in messages:
+        getattr(encoder, kind)(value, parameter)
+    decoder = Decoder(encoder.finish())
+    for kind, value, parameter in messages:
+        assert getattr(decoder, kind)(None, parameter) == value
+
+
+@pytest.mark.parametrize("p1", [1, 2**16 - 1])
+def test_carries_run_through_many_bytes(p1):
+    """A long run at the edge of the range, then the other bit: the twin has no carry to propagate."""
+    values = [2**64 - 1] * 40 + [0] * 40 + [2**63, 1] * 20
+    assert encode_columns(np.array(values, np.uint64)) == integers.encode([[v] for v in values])
+    encoder = Encoder()
+    bits = [p1 > 1] * 3000 + [p1 == 1] + [p1 > 1] * 10
+    for bit in bits:
+        encoder.bit(bit, p1)
+    decoder = Decoder(encoder.finish())
+    assert [decoder.bit(False, p1) for _ in bits] == bits
+
+
+def parsed(mesh: ebz.Mesh):
+    return container.read(memoryview(ebz.compress(mesh)), memory_limit=1 << 30)
+
+
+def check_file(mesh: ebz.Mesh) -> None:
+    """Decodes the connectivity of a file with nothing but the twins."""
+    encoded = parsed(mesh)
+    counts, streams = encoded.counts, encoded.streams
+    specials, at = {}, -1
+    for gap, ahead in integers.decode(streams.special_integers, counts.n_specials, 2):
+        at += gap + 1
+        specials[at] = ahead + 2 * at + 2
+    word = reverse.decode_word(streams.word, counts.n_symbols, set(specials), encoded.table)
+    opposite = reverse.opposites(word, specials, counts.n_closed, counts.n_single)
+    vertex = reverse.fans(opposite)
+    decoded, surface = connectivity.decode(
+        streams.word, streams.special_integers, streams.gluing, counts, encoded.table
+    )
+    assert word == "".join("CLRSE"[symbol] for symbol in decoded.symbols)
+    assert opposite == surface.opposite.tolist()
+    assert vertex == surface.piece_vertex.tolist()
+    glued = glue(streams.gluing, counts.n_copies, max(vertex, default=-1) + 1)
+    faces = np.array([glued[v] for v in vertex], int).reshape(-1, 3)
+    assert np.array_equal(faces, ebz.decompress(ebz.compress(mesh)).faces)
+
+
+def glue(data: bytes, n_copies: int, n_pieces: int) -> list[int]:
+    copies, at, vertex = {}, -1, 0
+    for gap, step in integers.decode(data, n_copies, 2):
+        at, vertex = at + gap + 1, vertex + (step >> 1 ^ -(step & 1))
+        copies[at] = vertex
+    numbers, fresh = [], 0
+    for piece in range(n_pieces):
+        numbers.append(copies.get(piece, fresh))
+        fresh += piece not in copies
+    return numbers
+
+
+@settings(max_examples=80, deadline=None)
+@given(meshes())
+def test_connectivity_is_decoded_alike(mesh):
+    check_file(mesh)
+
+
+@settings(max_examples=15, deadline=None)
+@given(meshes(surfaces(max_handles=6, max_holes=5)))
+def test_handles_and_holes_are_decoded_alike(mesh):
+    check_file(mesh)
+
+
+def test_a_random_triangulation_is_decoded_alike():
+    check_file(random_triangulation(2_000, seed=3))
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.sampled_from(table_names()), face_lists(), rngs)
+def test_words_are_encoded_alike(name, faces, rng):
+    table = Table.load(name)
+    n_vertices = int(faces.max(initial=-1)) + 1
+    word, _, _ = connectivity.encode(faces, n_vertices, table)
+    special = set(word.specials[0::2].tolist())
+    coder, state = Encoder(), 0
+    for position in reversed(range(len(word.symbols))):
+        symbol, frequencies = int(word.symbols[position]), table.frequencies[state].tolist()
+        coder.symbol(sum(frequencies[:symbol]), frequencies[symbol], 16)
+        state = 0 if position in special else int(table.successors[state, symbol])
+    assert coder.finish() == word.word
+
+
+@given(st.lists(st.integers(-(2**63), 2**63 - 1), max_size=20))
+def test_zigzag_is_the_textbook_one(values):
+    expected = [2 * value if value >= 0 else -2 * value - 1 for value in values]
+    assert zigzag(np.array(values, np.int64)).tolist() == expected
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.binary(max_size=60), st.integers(1, 20))
+def test_rows_of_bytes_come_back(data, stride):
+    rows = np.frombuffer(data[: len(data) // stride * stride], np.uint8)
+    encoded = np.frombuffer(_kernels.encode_rows(rows, stride), np.uint8)
+    assert np.array_equal(_kernels.decode_rows(encoded, len(rows) // stride, stride), rows)
