@@ -70,7 +70,7 @@ def test_the_twin_decodes_what_it_encodes(messages):
 
 @pytest.mark.parametrize("p1", [1, 2**16 - 1])
 def test_carries_run_through_many_bytes(p1):
-    """A long run at the edge of the range, then the other bit: the twin has no carry to propagate."""
+    """Long runs at the edge of the range, then the other bit; the twin has no carries."""
     values = [2**64 - 1] * 40 + [0] * 40 + [2**63, 1] * 20
     assert encode_columns(np.array(values, np.uint64)) == integers.encode([[v] for v in values])
     encoder = Encoder()

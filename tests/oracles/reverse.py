@@ -62,7 +62,7 @@ class Surface:
         self.stack.append(loop)
 
     def _after(self, met: HalfEdge, rest: Loop) -> Loop:
-        """What follows a half-edge on the loop that a special S joins; none if it splits its own."""
+        """What follows the half-edge on another loop; nothing where the loop is split in two."""
         if met in rest:
             self.open_loops.append(rest[rest.index(met) + 1 :])
             return []

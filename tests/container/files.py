@@ -1,0 +1,126 @@
+"""Files with everything in them, and how to take them apart and lie about them."""
+
+import zlib
+
+import numpy as np
+
+import ebz
+from ebz.codec.sample import glued_grid
+from tests import surgery
+
+START = 9  # bytes of magic and version
+Chunks = list[tuple[bytes, bytes]]
+
+HEADER_FIELDS = [
+    *("itemsize", "n_vertices", "n_symbols", "n_closed", "n_single", "n_specials"),
+    *("n_copies", "n_exceptions", "model", "lattice"),
+]
+BYTES = {"itemsize", "model", "lattice"}
+
+
+def rich_mesh() -> ebz.Mesh:
+    """Two components, a handle, holes, gluing, isolated vertices, attributes and metadata."""
+    torus = glued_grid(3, 4, "join", "join")[2]
+    annulus = glued_grid(1, 4, "open", "join")[2]
+    tetrahedron = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)])
+    pages = np.array([(0, 1, 2), (0, 1, 3), (1, 0, 4)])
+    faces = surgery.union([torus, annulus, tetrahedron, pages, np.array([(0, 1, 2)])])
+    n = surgery.n_used(faces) + 2
+    vertices = np.arange(3 * n, dtype=np.float32).reshape(-1, 3) ** 2 % 97 / 8
+    vertices[3, 1] = np.nan
+    return ebz.Mesh(
+        vertices,
+        faces,
+        {"red": np.arange(n, dtype=np.uint8), "uv": np.arange(2.0 * n).reshape(n, 2)},
+        {"corner": faces.astype(np.int16), "label": np.arange(len(faces)) % 5},
+        {"format": "ply", "raw": b"\0\xff", "n": [1, None, 2.5]},
+    )
+
+
+def finite_mesh() -> ebz.Mesh:
+    mesh = rich_mesh()
+    return ebz.Mesh(np.nan_to_num(mesh.vertices), mesh.faces)
+
+
+def files() -> dict[str, bytes]:
+    """Between them they have every kind of chunk and of lattice."""
+    plain, finite = rich_mesh(), finite_mesh()
+    random = finite.vertices + np.float32(0.1) ** np.arange(3, dtype=np.float32)
+    return {
+        "everything": ebz.compress(plain),
+        "box": ebz.compress(finite, bits=7),
+        "step": ebz.compress(finite, max_error=0.01),
+        "float": ebz.compress(ebz.Mesh(np.sqrt(random.astype(float)), finite.faces)),
+        "inline model": ebz.compress(ebz.Mesh(np.eye(3), [[0, 1, 2]]), embed_model=True),
+        "empty": ebz.compress(ebz.Mesh([], [])),
+    }
+
+
+def varint(value: int) -> bytes:
+    sevens = []
+    while value > 127:
+        sevens.append(value & 127 | 128)
+        value >>= 7
+    return bytes([*sevens, value])
+
+
+def read_varint(data: bytes, at: int) -> tuple[int, int]:
+    value = shift = 0
+    while True:
+        byte, at = data[at], at + 1
+        value, shift = value | (byte & 127) << shift, shift + 7
+        if byte < 128:
+            return value, at
+
+
+def split(data: bytes) -> Chunks:
+    """Types and payloads of the chunks."""
+    chunks, at = [], START
+    while at < len(data):
+        length, body = read_varint(data, at + 1)
+        chunks.append((data[at : at + 1], data[body : body + length]))
+        at = body + length + 4
+    return chunks
+
+
+def join(chunks: Chunks) -> bytes:
+    """The file, its checksums right."""
+    data = b"\x89EBZ\r\n\x1a\n\x01"
+    for kind, payload in chunks:
+        body = kind + varint(len(payload)) + payload
+        data += body + zlib.crc32(body).to_bytes(4, "little")
+    return data
+
+
+def offset(chunks: Chunks, index: int) -> int:
+    """Where in the file a chunk begins."""
+    return len(join(chunks[:index]))
+
+
+def with_payload(data: bytes, kind: bytes, payload: bytes) -> bytes:
+    """The file with another payload in the first chunk of that kind."""
+    chunks = split(data)
+    index = [other for other, _ in chunks].index(kind)
+    chunks[index] = (kind, payload)
+    return join(chunks)
+
+
+def read_header(data: bytes) -> tuple[dict[str, int], bytes]:
+    """The fields, and the bytes of the lattice's parameters."""
+    payload, at, fields = split(data)[0][1], 0, {}
+    for name in HEADER_FIELDS:
+        fields[name], at = (payload[at], at + 1) if name in BYTES else read_varint(payload, at)
+    return fields, payload[at:]
+
+
+def with_header(data: bytes, **changes: int) -> bytes:
+    fields, parameters = read_header(data)
+    fields |= changes
+    coded = [bytes([fields[n]]) if n in BYTES else varint(fields[n]) for n in HEADER_FIELDS]
+    return with_payload(data, b"H", b"".join(coded) + parameters)
+
+
+def attribute(name: bytes, kind: bytes, itemsize: int, shape: list[int], data: bytes) -> bytes:
+    """The payload of an attribute chunk."""
+    head = varint(len(name)) + name + kind + bytes([itemsize, len(shape)])
+    return head + b"".join(map(varint, shape)) + data
