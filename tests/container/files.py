@@ -31,8 +31,11 @@ def rich_mesh() -> ebz.Mesh:
     return ebz.Mesh(
         vertices,
         faces,
-        {"red": np.arange(n, dtype=np.uint8), "uv": np.arange(2.0 * n).reshape(n, 2)},
-        {"corner": faces.astype(np.int16), "label": np.arange(len(faces)) % 5},
+        {
+            "red": np.arange(n, dtype=np.uint8),
+            "uv": np.arange(2 * n, dtype=np.uint16).reshape(n, 2),
+        },
+        {"corner": faces.astype(np.int16), "label": np.arange(len(faces), dtype=np.int16) % 5},
         {"format": "ply", "raw": b"\0\xff", "n": [1, None, 2.5]},
     )
 
