@@ -6,16 +6,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import _kernels, connectivity
+from ebz.codec import _kernels, connectivity, pipeline
 from ebz.codec.integers import decode_columns, encode_columns, zigzag
-from ebz.codec.models.table import Table, table_names
+from ebz.codec.models.load import AnyTable, load
+from ebz.codec.models.table import table_names
 from ebz.codec.sample import random_triangulation
 from ebz.formats import container
-from tests.meshes import face_lists, meshes, rngs, surfaces
+from tests import surgery
+from tests.meshes import face_lists, meshes, surfaces
 from tests.oracles import integers, reverse
 from tests.oracles.range_coder import Decoder, Encoder
 
-TABLE = Table.load("loop-60")
+tables = st.sampled_from(table_names())
+models = st.none() | tables
 
 widths = st.integers(0, 64).flatmap(lambda bits: st.integers(0, 2**bits - 1))
 rows = st.integers(1, 3).flatmap(
@@ -81,30 +84,27 @@ def test_carries_run_through_many_bytes(p1):
     assert [decoder.bit(False, p1) for _ in bits] == bits
 
 
-def parsed(mesh: ebz.Mesh):
-    return container.read(memoryview(ebz.compress(mesh)), memory_limit=1 << 30)
-
-
-def check_file(mesh: ebz.Mesh) -> None:
-    """Decodes the connectivity of a file with nothing but the twins."""
-    encoded = parsed(mesh)
+def check_file(mesh: ebz.Mesh, model: str | None) -> None:
+    """Decodes the connectivity of a file with nothing but the twins; they know no adaptive model."""
+    data = ebz.compress(mesh, model=model)
+    encoded = container.read(memoryview(data), memory_limit=1 << 30)
     counts, streams = encoded.counts, encoded.streams
+    decoded = pipeline.decode(encoded)
     specials, at = {}, -1
     for gap, ahead in integers.decode(streams.special_integers, counts.n_specials, 2):
         at += gap + 1
         specials[at] = ahead + 2 * at + 2
-    word = reverse.decode_word(streams.word, counts.n_symbols, set(specials), encoded.table)
+    word = "".join("CLRSE"[symbol] for symbol in decoded.word.symbols)
+    if isinstance(encoded.model, AnyTable):
+        found = reverse.decode_word(streams.word, len(word), set(specials), encoded.model)
+        assert word == found
     opposite = reverse.opposites(word, specials, counts.n_closed, counts.n_single)
     vertex = reverse.fans(opposite)
-    decoded, surface = connectivity.decode(
-        streams.word, streams.special_integers, streams.gluing, counts, encoded.table
-    )
-    assert word == "".join("CLRSE"[symbol] for symbol in decoded.symbols)
-    assert opposite == surface.opposite.tolist()
-    assert vertex == surface.piece_vertex.tolist()
+    assert opposite == decoded.surface.opposite.tolist()
+    assert vertex == decoded.surface.piece_vertex.tolist()
     glued = glue(streams.gluing, counts.n_copies, max(vertex, default=-1) + 1)
     faces = np.array([glued[v] for v in vertex], int).reshape(-1, 3)
-    assert np.array_equal(faces, ebz.decompress(ebz.compress(mesh)).faces)
+    assert np.array_equal(faces, decoded.mesh.faces)
 
 
 def glue(data: bytes, n_copies: int, n_pieces: int) -> list[int]:
@@ -120,34 +120,29 @@ def glue(data: bytes, n_copies: int, n_pieces: int) -> list[int]:
 
 
 @settings(max_examples=80, deadline=None)
-@given(meshes())
-def test_connectivity_is_decoded_alike(mesh):
-    check_file(mesh)
+@given(meshes(), models)
+def test_connectivity_is_decoded_alike(mesh, model):
+    check_file(mesh, model)
 
 
 @settings(max_examples=15, deadline=None)
-@given(meshes(surfaces(max_handles=6, max_holes=5)))
-def test_handles_and_holes_are_decoded_alike(mesh):
-    check_file(mesh)
+@given(meshes(surfaces(max_handles=6, max_holes=5)), models)
+def test_handles_and_holes_are_decoded_alike(mesh, model):
+    check_file(mesh, model)
 
 
-def test_a_random_triangulation_is_decoded_alike():
-    check_file(random_triangulation(2_000, seed=3))
+@pytest.mark.parametrize("model", table_names())
+def test_a_random_triangulation_is_decoded_alike(model):
+    check_file(random_triangulation(1_500, seed=3), model)
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.sampled_from(table_names()), face_lists(), rngs)
-def test_words_are_encoded_alike(name, faces, rng):
-    table = Table.load(name)
-    n_vertices = int(faces.max(initial=-1)) + 1
-    word, _, _ = connectivity.encode(faces, n_vertices, table)
-    special = set(word.specials[0::2].tolist())
-    coder, state = Encoder(), 0
-    for position in reversed(range(len(word.symbols))):
-        symbol, frequencies = int(word.symbols[position]), table.frequencies[state].tolist()
-        coder.symbol(sum(frequencies[:symbol]), frequencies[symbol], 16)
-        state = 0 if position in special else int(table.successors[state, symbol])
-    assert coder.finish() == word.word
+@settings(max_examples=60, deadline=None)
+@given(tables, face_lists())
+def test_words_are_encoded_alike(name, faces):
+    table = load(name)
+    encoded, _, _ = connectivity.encode(faces, surgery.n_used(faces), [table])
+    word = "".join("CLRSE"[symbol] for symbol in encoded.symbols)
+    assert reverse.encode_word(word, set(encoded.specials[0::2].tolist()), table) == encoded.word
 
 
 @given(st.lists(st.integers(-(2**63), 2**63 - 1), max_size=20))

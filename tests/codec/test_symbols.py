@@ -17,7 +17,7 @@ TABLE = Table.load("loop-60")
 
 
 def encode(faces) -> connectivity.EncodedWord:
-    return connectivity.encode(faces, surgery.n_used(faces), TABLE)[0]
+    return connectivity.encode(faces, surgery.n_used(faces), [TABLE])[0]
 
 
 def count(word: connectivity.EncodedWord) -> Counter[str]:

@@ -13,9 +13,9 @@ Chunks = list[tuple[bytes, bytes]]
 
 HEADER_FIELDS = [
     *("itemsize", "n_vertices", "n_symbols", "n_closed", "n_single", "n_specials"),
-    *("n_copies", "n_exceptions", "model", "lattice"),
+    *("n_copies", "n_exceptions", "model", "method", "lattice"),
 ]
-BYTES = {"itemsize", "model", "lattice"}
+BYTES = {"itemsize", "model", "method", "lattice"}
 
 
 def rich_mesh() -> ebz.Mesh:
@@ -48,13 +48,16 @@ def finite_mesh() -> ebz.Mesh:
 def files() -> dict[str, bytes]:
     """Between them they have every kind of chunk and of lattice."""
     plain, finite = rich_mesh(), finite_mesh()
+    triangle = ebz.Mesh(np.eye(3), [[0, 1, 2]])
     random = finite.vertices + np.float32(0.1) ** np.arange(3, dtype=np.float32)
     return {
         "everything": ebz.compress(plain),
+        "table": ebz.compress(finite, model="stack"),
         "box": ebz.compress(finite, bits=7),
         "step": ebz.compress(finite, max_error=0.01),
         "float": ebz.compress(ebz.Mesh(np.sqrt(random.astype(float)), finite.faces)),
-        "inline model": ebz.compress(ebz.Mesh(np.eye(3), [[0, 1, 2]]), embed_model=True),
+        "automaton": ebz.compress(triangle, model="loop-60", embed_model=True),
+        "stack": ebz.compress(triangle, model="stack", embed_model=True),
         "empty": ebz.compress(ebz.Mesh([], [])),
     }
 

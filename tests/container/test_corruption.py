@@ -137,7 +137,7 @@ def test_missing_chunks_are_noticed(name):
 
 
 def test_chunks_that_the_header_has_no_use_for_are_corrupt():
-    everything = split(FILES["everything"]) + split(FILES["inline model"])
+    everything = split(FILES["everything"]) + split(FILES["stack"])
     order = b"HMWSGPXRVFDZ"
     chunks = split(FILES["empty"])
     for kind, payload in everything:
@@ -192,15 +192,15 @@ def test_wrong_counts_are_noticed(field, name):
 
 
 @every_file
-@pytest.mark.parametrize("field", ["itemsize", "model", "lattice"])
+@pytest.mark.parametrize("field", ["itemsize", "model", "method", "lattice"])
 def test_every_other_value_of_a_byte_of_the_header_is_noticed(field, name):
     right = read_header(FILES[name])[0][field]
     for value in set(range(256)) - {right}:
         error_or_same(with_header(FILES[name], **{field: value}), name)
 
 
-def test_unknown_lattices_and_models_need_another_reader():
-    for field in ("lattice", "model"):
+def test_unknown_lattices_models_and_methods_need_another_reader():
+    for field in ("lattice", "model", "method"):
         error(with_header(FILES["box"], **{field: 77}), ebz.VersionError)
 
 
@@ -240,7 +240,7 @@ def test_payloads_cut_short_or_prolonged_are_noticed_or_harmless(name):
 
 
 def test_headers_and_tables_that_go_on_are_corrupt():
-    for name, kind in (("box", b"H"), ("inline model", b"M")):
+    for name, kind in (("box", b"H"), ("automaton", b"M"), ("stack", b"M")):
         payload = dict(split(FILES[name]))[kind]
         error(with_payload(FILES[name], kind, payload + b"\0"), ebz.CorruptError)
 

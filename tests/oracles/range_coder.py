@@ -3,15 +3,15 @@
 G. N. N. Martin, "Range encoding", 1979; codec/kernels/range_coder.hpp is what ebz uses.
 """
 
-FULL = 2**32 - 1
-SMALL = 2**24
+FULL = 2**48 - 1
+SMALL = 2**40
 
 
 class Encoder:
     """The message is the number low / 256^n_bytes, somewhere in [low, low + range)."""
 
     def __init__(self) -> None:
-        self.low, self.range, self.n_bytes = 0, FULL, 4
+        self.low, self.range, self.n_bytes = 0, FULL, 6
 
     def symbol(self, start: int, frequency: int, total_bits: int) -> None:
         unit = self.range >> total_bits
@@ -35,7 +35,7 @@ class Encoder:
 
     def finish(self) -> bytes:
         """The shortest of the numbers in range; the decoder reads zeros past the end."""
-        for n_dropped in (3, 2, 1, 0):
+        for n_dropped in (5, 4, 3, 2, 1, 0):
             unit = 256**n_dropped
             value = -(-self.low // unit) * unit
             if value - self.low < self.range:
@@ -50,7 +50,7 @@ class Encoder:
 class Decoder:
     def __init__(self, data: bytes) -> None:
         self.data, self.at, self.range, self.code = data, 0, FULL, 0
-        for _ in range(4):
+        for _ in range(6):
             self._next()
 
     def symbol(self, starts: list[int], total_bits: int) -> int:
@@ -87,7 +87,7 @@ class Decoder:
 
     def _next(self) -> None:
         byte = self.data[self.at] if self.at < len(self.data) else 0
-        self.code = self.code << 8 | byte
+        self.code = (self.code << 8 | byte) & FULL  # damaged streams leave it above the range
         self.at += 1
 
     def _normalise(self) -> None:

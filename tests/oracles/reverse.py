@@ -8,21 +8,52 @@ the position of their symbol in the word, first triangles of closed components b
 from dataclasses import dataclass, field
 from typing import Any
 
-from ebz.codec.models.table import Table
-from tests.oracles.range_coder import Decoder
+from ebz.codec.models.load import AnyTable
+from ebz.codec.models.stack import StackTable
+from tests.oracles.range_coder import Decoder, Encoder
 
 HalfEdge = tuple[Any, int]
 Loop = list[HalfEdge]
 
 
-def decode_word(data: bytes, n_symbols: int, special: set[int], table: Table) -> str:
-    """The word, first symbol first; `special` are the positions of its special S."""
-    coder, state, word = Decoder(data), 0, ""
+class Walk:
+    """The row of a table that tells the probabilities of the next symbol."""
+
+    def __init__(self, table: AnyTable) -> None:
+        self.table, self.row = table, 0
+        if isinstance(table, StackTable):
+            self.loops = table.start()
+            self.row = table.row(self.loops[-1])
+
+    def frequencies(self) -> list[int]:
+        return list(self.table.frequencies[self.row].tolist())
+
+    def advance(self, symbol: int, special: bool) -> None:
+        if isinstance(self.table, StackTable):
+            self.table.apply(self.loops, symbol, special=special)
+            self.row = self.table.row(self.loops[-1])
+        else:
+            self.row = 0 if special else int(self.table.successors[self.row, symbol])
+
+
+def encode_word(word: str, special: set[int], table: AnyTable) -> bytes:
+    """The word from the last symbol to the first; `special` are the positions of its special S."""
+    coder, walk = Encoder(), Walk(table)
+    for position in reversed(range(len(word))):
+        symbol, frequencies = "CLRSE".index(word[position]), walk.frequencies()
+        coder.symbol(sum(frequencies[:symbol]), frequencies[symbol], 16)
+        walk.advance(symbol, position in special)
+    return coder.finish()
+
+
+def decode_word(data: bytes, n_symbols: int, special: set[int], table: AnyTable) -> str:
+    """The word, first symbol first."""
+    coder, walk, word = Decoder(data), Walk(table), ""
     for position in reversed(range(n_symbols)):
-        frequencies = table.frequencies[state].tolist()
+        frequencies = walk.frequencies()
         symbol = coder.symbol([sum(frequencies[:i]) for i in range(6)], 16)
         word = "CLRSE"[symbol] + word
-        state = 0 if position in special else int(table.successors[state, symbol])
+        walk.advance(symbol, position in special)
     return word
 
 
