@@ -114,7 +114,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
     with corrupt_at(found[layout.HEADER].where):
         header = layout.parse(layout.Header, found[layout.HEADER].payload)
         _check_header(header)
-        coordinates = _parse_lattice(header)
+        coordinates, method = _parse_lattice(header), _parse_method(header)
     _check_presence(header, found)
 
     def payload(kind: bytes) -> bytes:
@@ -131,7 +131,7 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
         lattice=coordinates,
-        method=_parse_method(header),
+        method=method,
         model=tables.read(header.model, found.get(layout.MODEL)),
         streams=Streams(
             word=payload(layout.WORD),
