@@ -6,6 +6,7 @@ pieces are one vertex of the mesh, and the gluing says which.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -56,10 +57,22 @@ class Surface:
     piece_vertex: Int32s
     vertex_of_piece: Int32s
 
-    @property
+    @cached_property
     def vertex(self) -> Int32s:
         """(3m,) the mesh vertex of each corner."""
-        return self.vertex_of_piece[self.piece_vertex]
+        if not self.has_copies:
+            return self.piece_vertex
+        return np.take(self.vertex_of_piece, self.piece_vertex)
+
+    @property
+    def has_copies(self) -> bool:
+        """Whether a piece vertex is glued; if not, vertices are numbered as those of the pieces."""
+        return self.n_vertices < len(self.vertex_of_piece)
+
+    @cached_property
+    def n_vertices(self) -> int:
+        """Mesh vertices that faces use."""
+        return int(self.vertex_of_piece.max(initial=-1)) + 1
 
 
 @dataclass(frozen=True)
@@ -258,6 +271,8 @@ def _encode_gluing(copies: Int64s, vertex_of_piece: Int32s) -> bytes:
 
 
 def _decode_gluing(data: bytes, n_copies: int, n_pieces: int) -> Int32s:
+    if not n_copies:
+        return np.arange(n_pieces, dtype=np.int32)
     gap, steps = decode_columns(data, n_copies, 2)
     copies, vertices = from_gaps(gap), np.cumsum(unzigzag(steps))
     if (np.diff(copies, prepend=-1) <= 0).any() or (copies >= n_pieces).any():

@@ -1,5 +1,7 @@
 """What the levels 1 to 9 mean, stage by stage."""
 
+from functools import cache
+
 from ebz.codec.connectivity import WordModel
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
@@ -20,7 +22,13 @@ def word_effort(level: int) -> Effort:
 
 def word_models(level: int) -> list[WordModel]:
     """The models of which the one with the shortest word is kept; the first where they tie."""
-    return [word_effort(level), load(DEFAULT_TABLE)]
+    return [word_effort(level), default_table()]
+
+
+@cache
+def default_table() -> AnyTable:
+    """The certified table, read once."""
+    return load(DEFAULT_TABLE)
 
 
 def position_method(level: int) -> Method:
@@ -32,4 +40,4 @@ def position_method(level: int) -> Method:
 
 def guaranteed_by(model: WordModel) -> AnyTable:
     """The table whose certificate bounds a word: adaptive models are kept where shorter."""
-    return model if isinstance(model, AnyTable) else load(DEFAULT_TABLE)
+    return model if isinstance(model, AnyTable) else default_table()

@@ -96,4 +96,4 @@ def _next(corners: Int32s) -> Int32s:
 
 
 def _n_sites(surface: Surface) -> int:
-    return int(surface.vertex_of_piece.max(initial=-1)) + 1
+    return surface.n_vertices
