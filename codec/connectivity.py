@@ -19,6 +19,7 @@ from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import Table
+from ebz.codec.specials import decode_specials, encode_specials
 
 Int32s = npt.NDArray[np.int32]
 Int64s = npt.NDArray[np.int64]
@@ -161,7 +162,7 @@ def _encode_word(
     """The word and the integers of its special S, which adaptive models code within the word."""
     if isinstance(model, AnyTable):
         word = _kernels.encode_symbols(symbols, specials, _frozen(model))
-        return word, _encode_specials(specials)
+        return word, encode_specials(specials, counts.n_symbols)
     sizes = counts.n_closed, counts.n_single
     return _kernels.encode_adaptive(symbols, *sizes, specials, model), b""
 
@@ -177,7 +178,7 @@ def _decode_word(
     sizes = counts.n_symbols, counts.n_closed, counts.n_single
     if isinstance(model, AnyTable):
         with corrupt_at(place("special S")):
-            specials = _decode_specials(special_integers, counts)
+            specials = decode_specials(special_integers, counts.n_specials, counts.n_symbols)
         with corrupt_at(place("word")):
             frozen = _frozen(model)
             return _kernels.decode_connectivity(data, *sizes, specials, frozen), specials
@@ -247,21 +248,6 @@ def _with_isolated(order: Int64s, n_vertices: int) -> Int64s:
     isolated = np.ones(n_vertices, bool)
     isolated[order] = False
     return np.concatenate([order, np.flatnonzero(isolated)])
-
-
-def _encode_specials(specials: Int64s) -> bytes:
-    """Gaps between positions, and how far on in the word the half-edge is that each meets."""
-    positions, meets = specials[0::2], specials[1::2]
-    return encode_columns(gaps(positions), meets - 2 * positions - 2)
-
-
-def _decode_specials(data: bytes, counts: WordCounts) -> Int64s:
-    gap, ahead = decode_columns(data, counts.n_specials, 2)
-    positions = from_gaps(gap)
-    meets = ahead.astype(np.int64) + 2 * positions + 2
-    if (np.diff(positions, prepend=-1) <= 0).any() or (positions >= counts.n_symbols).any():
-        raise CorruptError("positions do not ascend within the word")
-    return np.column_stack([positions, meets]).reshape(-1)
 
 
 def _encode_gluing(copies: Int64s, vertex_of_piece: Int32s) -> bytes:

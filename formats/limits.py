@@ -50,7 +50,8 @@ def _check_symbols(encoded: EncodedMesh) -> None:
     counts, model, streams = encoded.counts, encoded.model, encoded.streams
     if isinstance(model, AnyTable):
         cheapest = math.log2(TOTAL / int(model.frequencies.max()))
-        _check("symbols", counts.n_symbols, cheapest, streams.word)
+        n_coded = max(0, counts.n_symbols - counts.n_specials)
+        _check("symbols", n_coded, cheapest, streams.word)
         _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
         return
     if 3 * counts.n_single > encoded.n_vertices + counts.n_copies:

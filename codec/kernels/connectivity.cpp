@@ -51,7 +51,7 @@ std::vector<uint8_t> encode_symbols(std::span<const uint8_t> symbols, std::span<
     for (int64_t position = static_cast<int64_t>(symbols.size()) - 1; position >= 0; --position) {
         const Symbol symbol = static_cast<Symbol>(symbols[position]);
         const bool special = reversed.take(position) != none;
-        model.shares().encode(coder, symbol);
+        if (!special) model.shares().encode(coder, symbol);
         loops.apply(symbol, special);
         model.advance(symbol, special);
     }
@@ -68,9 +68,8 @@ DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const Wo
     SpecialsReversed reversed(specials);
     Reverse reverse(header.n_symbols, header.n_closed, header.n_single);
     for (Index position = header.n_symbols - 1; position >= 0; --position) {
-        const Symbol symbol = model.shares().decode(coder);
         const int64_t meets = reversed.take(position);
-        if (meets != none && symbol != S) throw Corrupt("a symbol other than S is listed as special");
+        const Symbol symbol = meets == none ? model.shares().decode(coder) : S;
         loops.apply(symbol, meets != none);
         reverse.apply(symbol, meets);
         model.advance(symbol, meets != none);

@@ -157,8 +157,7 @@ def _transitions(table: Table, proved: list[State]) -> _Transitions:
 def _certificate(moves: _Transitions, table: Table, n_triangles: int) -> Certificate:
     phi, c_c, c_other, delta = _upper(moves)
     psi, spread, delta_below = _lower(moves, c_c, c_other)
-    is_s = moves.symbol == S
-    special, at = moves.cost[is_s], moves.source[is_s]
+    at = np.unique(moves.source)
     return Certificate(
         model=table.name,
         kind=table.kind,
@@ -169,12 +168,12 @@ def _certificate(moves: _Transitions, table: Table, n_triangles: int) -> Certifi
         prices={"C": c_c, "L": c_other, "R": c_other, "S": c_other + delta, "E": c_other - delta},
         bits_per_word=float(phi[0] - phi.min()),
         bits_per_component=-delta,
-        bits_per_special=float((special + phi[0] - phi[at]).max()) - c_other,
+        bits_per_special=float((phi[0] - phi[at]).max()),
         below=Band(
             spread=spread,
             bits_per_word=float(psi.max() - psi[0]),
             bits_per_component=delta_below,
-            bits_per_special=(1 - spread) * c_other - float((special + psi[0] - psi[at]).min()),
+            bits_per_special=float((psi[at] - psi[0]).max()),
         ),
         method="cost: linear program over the transitions; soundness: bounds of the stack carried "
         f"to a fixed point, and every stack of at most {n_triangles} triangles",

@@ -90,7 +90,7 @@ def certify_stack(table: StackTable) -> Certificate:
     start = int(phi[kinds.top(kinds.lengths[-1], 0, table.bottom)])
     further = _fall_per_component(kinds, phi)
     first = max(_fall_onto(kinds, phi, start, kinds.lengths[-1], table.bottom) - further, 0)
-    special = _special(kinds, phi, code)
+    special = _rise_at_special(kinds, phi)
     bits_per_c, bits_per_other = rounded_up(price[C] / UNIT), rounded_up(other / UNIT)
     return Certificate(
         model=table.name,
@@ -102,7 +102,7 @@ def certify_stack(table: StackTable) -> Certificate:
         prices={letter: price[s] / UNIT for s, letter in enumerate(SYMBOLS)},
         bits_per_word=first / UNIT,
         bits_per_component=(further + price[E] - other) / UNIT,
-        bits_per_special=(special - other) / UNIT,
+        bits_per_special=special / UNIT,
         below=None,
         method=f"potential over stacks, {len(rows)} inequalities checked in multiples of 2^-24 "
         "bit, with tails, unknown lengths and the bottom of the stack; every allowed symbol has a "
@@ -220,11 +220,10 @@ def _fall_per_component(kinds: _Kinds, phi: Integers) -> int:
     )
 
 
-def _special(kinds: _Kinds, phi: Integers, code: Integers) -> int:
-    """Largest cost of a special S with the rise of the potential when its loop becomes unknown."""
+def _rise_at_special(kinds: _Kinds, phi: Integers) -> int:
+    """Largest rise of the potential when a special S makes the loop on top unknown."""
     return max(
-        int(code[kinds.table.row((length, conflict, below)), S])
-        + int(phi[kinds.top(kinds.lengths[-1], 0, below)] - phi[kinds.top(length, conflict, below)])
+        int(phi[kinds.top(kinds.lengths[-1], 0, below)] - phi[kinds.top(length, conflict, below)])
         for below in range(kinds.table.n_classes)
         for length, conflict in kinds.tops()
     )

@@ -61,6 +61,8 @@ def check_stacks(table: Table, n_triangles: int = N_CHECKED_TRIANGLES) -> int:
 def word_bits(table: Table, word: str, special: Iterable[int] = ()) -> float:
     """The cost in bits of a reverse CLRSE word; `special` are the positions of its special S.
 
+    A special S is not coded.
+
     Raises OptionError, with the position, where the table forbids a symbol.
     """
     bits = (FREQUENCY_BITS - np.log2(np.maximum(table.frequencies, 1))).tolist()
@@ -70,8 +72,11 @@ def word_bits(table: Table, word: str, special: Iterable[int] = ()) -> float:
     state, total = 0, 0.0
     for position, letter in enumerate(word):
         symbol = SYMBOLS.index(letter)
+        if position in resets:
+            state = 0
+            continue
         if forbidden[state][symbol]:
             raise OptionError(f"model {table.name!r}: symbol {position} ({letter}) is forbidden")
         total += bits[state][symbol]
-        state = 0 if position in resets else to[state][symbol]
+        state = to[state][symbol]
     return total

@@ -27,10 +27,11 @@ weights = st.lists(st.floats(0.01, 1), min_size=5, max_size=5)
 def allowance(found: Certificate, word: str, special: list[int]) -> tuple[float, float]:
     """The least and the largest cost that the certificate grants the word."""
     n_c = word.count("C")
-    price = found.bits_per_c * n_c + found.bits_per_other * (len(word) - n_c)
+    n_special = len(special)
+    n_other = len(word) - n_c - n_special
+    price = found.bits_per_c * n_c + found.bits_per_other * n_other
     below = found.below
     assert below is not None
-    n_special = len(special)
     # A word that is cut off has more loops left than components: E without its S.
     n_open = word.count("E") - word.count("S") + n_special
     most = found.bits_per_word + found.bits_per_component * n_open
