@@ -35,8 +35,8 @@ class Certificate:
 
     A word with n_C symbols C, n_O others, n_X special S besides and n_P components costs at most
     bits_per_c n_C + bits_per_other n_O + bits_per_special n_X + bits_per_component n_P
-    + bits_per_word.  bits_per_vertex is bits_per_c + bits_per_other.  A special S is not coded, since
-    its position is stored; but the model forgets what it knew.
+    + bits_per_word.  bits_per_vertex is bits_per_c + bits_per_other.
+    A special S is not coded, since its position is stored; but the model forgets what it knew.
     prices: what the proof charges for each symbol.
     below: what the word costs at least, where that is certified too.
     contexts: rows of the table.  method: what was derived and checked, in words.

@@ -42,7 +42,7 @@ LOG_ERROR_UNITS = 1e-3
 
 
 @dataclass(frozen=True)
-class _Kinds:
+class Kinds:
     """The kinds of stacks of a table, and where P and F stand in the vector of potentials."""
 
     table: StackTable
@@ -77,15 +77,33 @@ class _Kinds:
         return ((length, k) for length in self.lengths for k in self.conflicts(length))
 
 
+@dataclass(frozen=True, eq=False)
+class Proof:
+    """A potential that bounds every word, in units of 2^-24 bit, and the prices that it allows.
+
+    n_inequalities: how many were checked.  phi: (n_potentials + 1,) by Kinds.top and Kinds.under.
+    """
+
+    kinds: Kinds
+    n_inequalities: int
+    phi: Integers
+    price: list[int]
+
+
+def prove(table: StackTable) -> Proof:
+    """The proof for a table; raises OptionError, with the reason, where there is none."""
+    table.check()
+    kinds = Kinds(table)
+    rows = np.array(sorted(set(_inequalities(kinds))), np.int64)
+    bits = _code_lengths(table)[rows[:, 1], rows[:, 0]]
+    phi = _balanced(kinds, rows, bits, _potential(kinds, rows, bits))
+    return Proof(kinds, len(rows), phi, _prices(rows, bits, phi))
+
+
 def certify_stack(table: StackTable) -> Certificate:
     """The guarantee of a stack table; raises OptionError, with the reason, where there is none."""
-    table.check()
-    kinds = _Kinds(table)
-    rows = np.array(sorted(set(_inequalities(kinds))), np.int64)
-    code = _code_lengths(table)
-    bits = code[rows[:, 1], rows[:, 0]]
-    phi = _balanced(kinds, rows, bits, _potential(kinds, rows, bits))
-    price = _prices(rows, bits, phi)
+    proof = prove(table)
+    kinds, phi, price = proof.kinds, proof.phi, proof.price
     other = max(price[L], price[R], -(-(price[S] + price[E]) // 2))
     start = int(phi[kinds.top(kinds.lengths[-1], 0, table.bottom)])
     further = _fall_per_component(kinds, phi)
@@ -104,16 +122,16 @@ def certify_stack(table: StackTable) -> Certificate:
         bits_per_component=(further + price[E] - other) / UNIT,
         bits_per_special=special / UNIT,
         below=None,
-        method=f"potential over stacks, {len(rows)} inequalities checked in multiples of 2^-24 "
-        "bit, with tails, unknown lengths and the bottom of the stack; every allowed symbol has a "
-        "share",
+        method=f"potential over stacks, {proof.n_inequalities} inequalities checked in multiples of "
+        "2^-24 bit, with tails, unknown lengths and the bottom of the stack; every allowed symbol "
+        "has a share",
     )
 
 
 Inequality = tuple[int, int, int, int, int, int]
 
 
-def _inequalities(kinds: _Kinds) -> Iterator[Inequality]:
+def _inequalities(kinds: Kinds) -> Iterator[Inequality]:
     """Symbol, row, P and F before, P and F after (NONE without F) of every kind of stack."""
     for below in range(kinds.table.n_classes):
         for length in kinds.lengths:
@@ -121,7 +139,7 @@ def _inequalities(kinds: _Kinds) -> Iterator[Inequality]:
             yield from _joins(kinds, length, below)
 
 
-def _within_top(kinds: _Kinds, length: int, below: int) -> Iterator[Inequality]:
+def _within_top(kinds: Kinds, length: int, below: int) -> Iterator[Inequality]:
     """C, L, R and E on a top loop of that length."""
     table = kinds.table
     for conflict in kinds.conflicts(length):
@@ -138,7 +156,7 @@ def _within_top(kinds: _Kinds, length: int, below: int) -> Iterator[Inequality]:
         yield E, row, here, NONE, pushed, kinds.under(length, below)
 
 
-def _joins(kinds: _Kinds, length: int, below: int) -> Iterator[Inequality]:
+def _joins(kinds: Kinds, length: int, below: int) -> Iterator[Inequality]:
     """S of every top loop with a second loop of that length; `below` is what lies under both."""
     table = kinds.table
     joined = length - 1 if length - 1 <= table.conflict_max else 0
@@ -156,7 +174,7 @@ def _code_lengths(table: StackTable) -> Integers:
     return np.ceil(bits * UNIT + LOG_ERROR_UNITS).astype(np.int64)
 
 
-def _potential(kinds: _Kinds, rows: Integers, bits: Integers) -> Integers:
+def _potential(kinds: Kinds, rows: Integers, bits: Integers) -> Integers:
     """Potentials of a linear program for the least price(C) + price(other)."""
     from ebz.codec.models.solvers import linear_program, sparse_rows
 
@@ -196,7 +214,7 @@ def _prices(rows: Integers, bits: Integers, phi: Integers) -> list[int]:
     return [max(price[C], 0), *price[L:]]
 
 
-def _balanced(kinds: _Kinds, rows: Integers, bits: Integers, phi: Integers) -> Integers:
+def _balanced(kinds: Kinds, rows: Integers, bits: Integers, phi: Integers) -> Integers:
     """The same potential with S and E at one price: a constant for each lower loop is free."""
     price = _prices(rows, bits, phi)
     balanced = phi.copy()
@@ -204,14 +222,14 @@ def _balanced(kinds: _Kinds, rows: Integers, bits: Integers, phi: Integers) -> I
     return balanced
 
 
-def _fall_onto(kinds: _Kinds, phi: Integers, before: int, length: int, below: int) -> int:
+def _fall_onto(kinds: Kinds, phi: Integers, before: int, length: int, below: int) -> int:
     """Largest fall of the potential from a loop on top to any loop on top of that one."""
     pushed = kinds.table.step_over((length, 0, below))
     lowest = min(int(phi[kinds.top(*top, pushed)]) for top in kinds.tops())
     return before - int(phi[kinds.under(length, below)]) - lowest
 
 
-def _fall_per_component(kinds: _Kinds, phi: Integers) -> int:
+def _fall_per_component(kinds: Kinds, phi: Integers) -> int:
     """Largest fall of the potential from a finished component on top to another on top of it."""
     return max(
         _fall_onto(kinds, phi, int(phi[kinds.top(length, conflict, below)]), length, below)
@@ -220,7 +238,7 @@ def _fall_per_component(kinds: _Kinds, phi: Integers) -> int:
     )
 
 
-def _rise_at_special(kinds: _Kinds, phi: Integers) -> int:
+def _rise_at_special(kinds: Kinds, phi: Integers) -> int:
     """Largest rise of the potential when a special S makes the loop on top unknown."""
     return max(
         int(phi[kinds.top(kinds.lengths[-1], 0, below)] - phi[kinds.top(length, conflict, below)])
