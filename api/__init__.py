@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ebz._version import __version__
 
 if TYPE_CHECKING:
+    from ebz import models
     from ebz.codec.compare import Verification
     from ebz.codec.errors import (
         CorruptError,
@@ -72,6 +73,7 @@ __all__ = [
     "__version__",
     "compress",
     "decompress",
+    "models",
     "read",
     "stats",
     "verify",
@@ -80,6 +82,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name == "models":
+        return import_module("ebz.models")  # which makes it an attribute
     if name not in _HOMES:
         raise AttributeError(f"module 'ebz' has no attribute {name!r}")
     value = getattr(import_module(_HOMES[name]), name)

@@ -10,6 +10,7 @@ from ebz.codec.errors import OptionError
 from ebz.codec.lattice import MAX_BITS
 from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE, LEVELS
 from ebz.codec.mesh import Mesh
+from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
 from ebz.codec.pipeline import Progress
@@ -34,8 +35,9 @@ def compress(
     bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).
     max_error: in model units; no coordinate moves by more.  At most one of the two.
     level: 1 (fast) to 9 (small).
-    model: name of a built-in table, path of a table file, or a table: the word is coded with it;
-    None: with the level's adaptive model, or with the built-in table where that is shorter.
+    model: name of a built-in table, path of a table file, or a table, which must have a
+    certificate (ebz.models.certify): the word is coded with it; None: with the level's adaptive
+    model, or with the built-in table where that is shorter.
     embed_model: code the word with a table and store that in the file.
     progress: called as progress(stage, done, total).
 
@@ -76,8 +78,18 @@ def as_bytes(data: BytesLike) -> memoryview:
 
 
 def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
-    """The table that a `model` option means; raises OptionError where there is none."""
-    return model if isinstance(model, AnyTable) else load(model or DEFAULT_TABLE)
+    """The table that a `model` option means.
+
+    Raises OptionError where there is none, or where the table guarantees nothing.  Those built in
+    are not certified again.
+    """
+    table = model if isinstance(model, AnyTable) else load(model or DEFAULT_TABLE)
+    try:
+        guaranteed_bits(table)
+    except OptionError as error:
+        source = None if isinstance(model, AnyTable) or model is None else os.fspath(model)
+        raise OptionError(f"it guarantees nothing: {error.message}", source=source) from None
+    return table
 
 
 def _is_file(model: Any) -> bool:

@@ -1,7 +1,11 @@
 """What a file holds and whether it is whole."""
 
+import math
+
 from ebz.codec import pipeline, statistics
 from ebz.codec.compare import Verification, compare
+from ebz.codec.connectivity import WordModel
+from ebz.codec.errors import OptionError
 from ebz.codec.levels import guaranteed_by
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
@@ -20,10 +24,18 @@ def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -
     view = as_bytes(content)
     encoded = parse(view, memory_limit)
     decoded = pipeline.decode(encoded)
-    guarantee = guaranteed_bits(guaranteed_by(encoded.model))
+    guarantee = _guarantee(encoded.model)
     return statistics.describe(
         encoded, decoded.word, decoded.surface, decoded.mesh, container.sizes(view), guarantee
     )
+
+
+def _guarantee(model: WordModel) -> float:
+    """Bits per vertex; infinite where a table in the file has no certificate."""
+    try:
+        return guaranteed_bits(guaranteed_by(model))
+    except OptionError:
+        return math.inf
 
 
 def verify(

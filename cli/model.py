@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ebz.codec.errors import OptionError
+from ebz.cli.files import Output
+from ebz.cli.table import json_of
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print one line of JSON.")
-force = click.option("-f", "--force", is_flag=True, help="Overwrite OUTPUT.")
+force = click.option("-f", "--force", is_flag=True, help="Overwrite files, use terminals.")
 named = click.argument("model", metavar="NAME|FILE")
 
 EPILOG = """\b
@@ -20,6 +20,7 @@ Examples:
   ebz model certify loop-60
   ebz model fit --loops 3 --max-length 8 --max-conflict 8 -o big.npz
   ebz compress --model big.npz bunny.ply
+  ebz model adversary stack -o costly.ply
 """
 
 
@@ -92,12 +93,12 @@ def fit(output: str, force: bool, as_json: bool, **limits: Any) -> None:
     from ebz.codec.models.certify import certify
     from ebz.codec.models.fit import fit as fit_table
 
-    _refuse_to_overwrite(output, force)
-    name = "fit" if output == "-" else Path(output).stem
-    table = fit_table(**limits, name=name)
+    target = _binary_output(output, force)
+    to_stdout = target.descriptor is not None
+    table = fit_table(**limits, name="fit" if to_stdout else Path(output).stem)
     certificate = certify(table)
-    _write(output, table.to_bytes())
-    if output != "-":
+    target.write([table.to_bytes()])
+    if not to_stdout:
         _print(certificate.as_dict(), as_json)
 
 
@@ -123,32 +124,71 @@ def figure(number: str, output: str | None, force: bool, as_json: bool) -> None:
         return
     from ebz.codec.models.figures import draw
 
-    _refuse_to_overwrite(output, force)
-    _write(output, draw(int(number), Path(output).suffix.removeprefix(".")))
+    target = _binary_output(output, force)
+    target.write([draw(int(number), Path(output).suffix.removeprefix("."))])
 
 
-def _refuse_to_overwrite(output: str, force: bool) -> None:
-    if output == "-" and sys.stdout.isatty():
-        raise OptionError("refusing to write binary data to a terminal")
-    if output != "-" and not force and Path(output).exists():
-        raise OptionError("it exists; -f overwrites it", source=output)
+@model.command()
+@click.argument("model", metavar="[NAME|FILE]", default="stack")
+@click.option(
+    "-n", "n_vertices", metavar="VERTICES", default=1000, show_default=True, help="About how many."
+)
+@click.option(
+    "--width", metavar="N", default=30, show_default=True, help="How many words are kept at a time."
+)
+@click.option("-o", "--output", metavar="MESH", help="Write the costliest mesh, as binary PLY.")
+@force
+@as_json
+def adversary(
+    model: str, n_vertices: int, width: int, output: str | None, force: bool, as_json: bool
+) -> None:
+    """Search the mesh that costs a stack model most, to see how tight its guarantee is.
+
+    Prints the bits of the costliest word found, and what the certificate grants it.
+    """
+    from ebz.codec.models.adversary import costly_word, stack_table
+    from ebz.codec.models.certify import certify
+    from ebz.codec.models.load import load
+
+    target = None if output is None else _binary_output(output, force)
+    table = stack_table(load(model))
+    word = costly_word(table, n_vertices, width)
+    if target is not None:
+        target.write([_mesh_file(word.faces())])
+    if target is None or target.descriptor is None:
+        limit = word.limit(certify(table))
+        result = {
+            "model": table.name,
+            "vertices": word.n_vertices,
+            "bits": word.bits,
+            "certified_bits": limit,
+            "bits_per_vertex": word.bits / word.n_vertices,
+            "certified_bits_per_vertex": limit / word.n_vertices,
+        }
+        _print(result, as_json)
 
 
-def _write(output: str, data: bytes) -> None:
-    if output == "-":
-        sys.stdout.buffer.write(data)
-        return
-    try:
-        Path(output).write_bytes(data)
-    except OSError as error:
-        raise OptionError(f"cannot write it: {error.strerror}", source=output) from None
+def _mesh_file(faces: Any) -> bytes:
+    """A PLY file of those faces; the positions know nothing of them."""
+    from io import BytesIO
+
+    import ebz
+    from ebz.codec.sample import spiral
+
+    buffer = BytesIO()
+    ebz.write(buffer, ebz.Mesh(spiral(int(faces.max()) + 1), faces), format="ply")
+    return buffer.getvalue()
+
+
+def _binary_output(name: str, force: bool) -> Output:
+    target = Output(name, None, force=force)
+    target.refuse_terminal()
+    return target
 
 
 def _print(result: dict[str, Any], as_json: bool) -> None:
     if as_json:
-        import json
-
-        click.echo(json.dumps(result))
+        click.echo(json_of(result), nl=False)
         return
     if all(isinstance(value, dict) for value in result.values()):
         _print_rows(result)

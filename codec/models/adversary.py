@@ -16,6 +16,7 @@ from ebz.codec import _kernels
 from ebz.codec.errors import OptionError
 from ebz.codec.models.certificate import Certificate
 from ebz.codec.models.certify_stack import UNIT, prove
+from ebz.codec.models.load import AnyTable
 from ebz.codec.models.stack import SHORTEST, Loop, StackTable
 from ebz.codec.models.table import FREQUENCY_BITS, SYMBOLS, C, E, L, R, S
 
@@ -102,6 +103,13 @@ def costly_word(table: StackTable, n_vertices: int, width: int = 30) -> CostlyWo
         beam = search.grown(beam, width)
     ended = min((search.ended(word) for word in beam), key=lambda word: word.lost)
     return CostlyWord(ended.text(), ended.bits)
+
+
+def stack_table(table: AnyTable) -> StackTable:
+    """The table itself; raises OptionError for an automaton, for which there is nothing to find."""
+    if isinstance(table, StackTable):
+        return table
+    raise OptionError(f"model {table.name!r}: an automaton, whose words all cost what is certified")
 
 
 class _Search:

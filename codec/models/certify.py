@@ -10,5 +10,9 @@ from ebz.codec.models.table import Table
 
 
 def certify(table: Table | StackTable) -> Certificate:
-    """The guarantee of a table; raises OptionError, with the reason, where there is none."""
+    """The guarantee of a table; raises OptionError, with the reason, where there is none.
+
+    For an automaton the potentials of Theorem 3.1 telescope along a word; for a stack table they
+    do by inequality (*) of docs/models.md.  Both are found anew from the integers.
+    """
     return certify_stack(table) if isinstance(table, StackTable) else certify_automaton(table)

@@ -122,9 +122,9 @@ def certify_stack(table: StackTable) -> Certificate:
         bits_per_component=(further + price[E] - other) / UNIT,
         bits_per_special=special / UNIT,
         below=None,
-        method=f"potential over stacks, {proof.n_inequalities} inequalities checked in multiples of "
-        "2^-24 bit, with tails, unknown lengths and the bottom of the stack; every allowed symbol "
-        "has a share",
+        method=f"potential over stacks, {proof.n_inequalities} inequalities checked in multiples "
+        "of 2^-24 bit, with tails, unknown lengths and the bottom of the stack; every allowed "
+        "symbol has a share",
     )
 
 

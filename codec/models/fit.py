@@ -27,6 +27,9 @@ def fit(
 ) -> Table:
     """The table of a sound loop automaton, with the optimal probabilities in 16 bits.
 
+    The automata are those of the paper's section 6, made sound, the probabilities those of
+    Theorem 3.1 under the constraints of section 4.
+
     Without n_states: every state within the limits (loops.loop_automaton).  With it: the best
     n_states found among the bounds within the limits; the i-th loop's length is then at most
     3 + (max_length - 3) // i, since what is known of deeper loops is worth less.

@@ -41,7 +41,10 @@ RIDGE = 1e-7
 
 
 def fit_stack(length_max: int = LENGTH_MAX, conflict_max: int = CONFLICT_MAX) -> StackTable:
-    """The stack table that ships, or one that tells fewer tops apart; needs clarabel."""
+    """The stack table that ships, or one that tells fewer tops apart; needs clarabel.
+
+    It minimises the bound of inequality (*) in docs/models.md, a geometric program.
+    """
     table = shape(length_max, conflict_max, lower_classes())
     table.frequencies = _rounded(_probabilities(table))
     return table

@@ -12,7 +12,10 @@ Floats = npt.NDArray[np.float64]
 
 
 def table_of(model: MarkovModel, name: str) -> Table:
-    """The table of a loop automaton's model, its probabilities rounded to 16 bits."""
+    """The table of a loop automaton's optimal model (Theorem 3.1), probabilities in 16 bits.
+
+    It is certified only if the automaton is sound.
+    """
     targets = model.automaton.targets
     return Table(
         name=name,

@@ -13,7 +13,7 @@ AnyTable = Table | StackTable
 
 
 def load(name_or_path: str | PathLike[str]) -> AnyTable:
-    """The built-in table of that name, or the table in that file.
+    """The built-in table of that name, or the table in that file, of whatever kind.
 
     Raises OptionError where there is neither, or where the table is malformed.
     """

@@ -73,6 +73,8 @@ def loop_automaton(
 ) -> Automaton:
     """The sound automaton that knows `loops` loops, lengths and conflicts up to the limits.
 
+    The paper's section 6, with bounds in place of its redirect.
+
     State 0 is the unknown stack.  Raises OptionError where a limit is out of range or there are
     more than max_states states.
     """
