@@ -11,6 +11,7 @@
 #include "errors.hpp"
 #include "integers.hpp"
 #include "lattices.hpp"
+#include "order/permutations.hpp"
 #include "positions/positions.hpp"
 #include "splits.hpp"
 #include "topology.hpp"
@@ -181,6 +182,63 @@ Array<int32_t> weld(const Input<int32_t>& faces, const Input<Bits>& positions) {
     return to_numpy(without_gil([&] { return ebz::weld(view(faces), view(positions)); }));
 }
 
+// What the order of the source is predicted from; the arrays must stay.
+ebz::order::Geometry geometry(const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                       const Input<int64_t>& positions) {
+    return {{view(opposite), view(vertex), static_cast<int32_t>(positions.size() / 3)}, view(positions)};
+}
+
+nb::bytes encode_vertex_order(const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                              const Input<int64_t>& positions, const Input<int32_t>& visits, bool uniform,
+                              const Input<int32_t>& source) {
+    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
+    return to_bytes(
+        without_gil([&] { return ebz::order::encode_vertex_order(known, {view(visits)}, uniform, view(source)); }));
+}
+
+Array<int32_t> decode_vertex_order(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                   const Input<int32_t>& vertex, const Input<int64_t>& positions,
+                                   const Input<int32_t>& visits, bool uniform) {
+    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
+    return to_numpy(
+        without_gil([&] { return ebz::order::decode_vertex_order(view(bytes), known, {view(visits)}, uniform); }));
+}
+
+nb::bytes encode_face_order(const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                            const Input<int64_t>& positions, const Input<int32_t>& vertex_source, bool uniform,
+                            const Input<int32_t>& source) {
+    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
+    return to_bytes(without_gil(
+        [&] { return ebz::order::encode_face_order(known, view(vertex_source), uniform, view(source)); }));
+}
+
+Array<int32_t> decode_face_order(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                 const Input<int32_t>& vertex, const Input<int64_t>& positions,
+                                 const Input<int32_t>& vertex_source, bool uniform) {
+    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
+    return to_numpy(without_gil(
+        [&] { return ebz::order::decode_face_order(view(bytes), known, view(vertex_source), uniform); }));
+}
+
+nb::bytes encode_rotations(const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                           const Input<int64_t>& positions, const Input<int32_t>& face_source,
+                           const Input<int32_t>& vertex_source, bool uniform, const Input<uint8_t>& rotations) {
+    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
+    return to_bytes(without_gil([&] {
+        return ebz::order::encode_rotations(known, view(face_source), view(vertex_source), uniform, view(rotations));
+    }));
+}
+
+Array<uint8_t> decode_rotations(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                const Input<int32_t>& vertex, const Input<int64_t>& positions,
+                                const Input<int32_t>& face_source, const Input<int32_t>& vertex_source,
+                                bool uniform) {
+    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
+    return to_numpy(without_gil([&] {
+        return ebz::order::decode_rotations(view(bytes), known, view(face_source), view(vertex_source), uniform);
+    }));
+}
+
 template <class Float>
 int decimal_digits(const Input<Float>& values, int max_digits, size_t max_misses) {
     return without_gil([&] { return ebz::decimal_digits(view(values), max_digits, max_misses); });
@@ -210,6 +268,22 @@ std::tuple<int32_t, int32_t, int32_t, int32_t> describe(const Input<int32_t>& op
     const ebz::Topology topology = without_gil([&] { return ebz::describe(view(opposite)); });
     return std::make_tuple(topology.n_components, topology.n_boundary_loops, topology.n_boundary_edges,
                           topology.n_edges);
+}
+
+void bind_orders(nb::module_& m) {
+    m.def("encode_vertex_order", &encode_vertex_order, "opposite"_a, "vertex"_a, "positions"_a, "visits"_a,
+          "uniform"_a, "source"_a, "The bytes of each vertex's index in the source.");
+    m.def("decode_vertex_order", &decode_vertex_order, "data"_a, "opposite"_a, "vertex"_a, "positions"_a,
+          "visits"_a, "uniform"_a, "The indices, a permutation.");
+    m.def("encode_face_order", &encode_face_order, "opposite"_a, "vertex"_a, "positions"_a,
+          "vertex_source"_a, "uniform"_a, "source"_a, "The bytes of each face's index in the source.");
+    m.def("decode_face_order", &decode_face_order, "data"_a, "opposite"_a, "vertex"_a, "positions"_a,
+          "vertex_source"_a, "uniform"_a, "The indices, a permutation.");
+    m.def("encode_rotations", &encode_rotations, "opposite"_a, "vertex"_a, "positions"_a, "face_source"_a,
+          "vertex_source"_a, "uniform"_a, "rotations"_a,
+          "The bytes of which corner of each face is first in the source.");
+    m.def("decode_rotations", &decode_rotations, "data"_a, "opposite"_a, "vertex"_a, "positions"_a,
+          "face_source"_a, "vertex_source"_a, "uniform"_a, "The corners, 0 to 2.");
 }
 
 void translate_errors(const std::exception_ptr& error, void*) {
@@ -258,6 +332,7 @@ NB_MODULE(_kernels, m) {
     m.def("weld", &weld<int32_t>, "faces"_a, "positions"_a);
     m.def("weld", &weld<int64_t>, "faces"_a, "positions"_a,
           "For each vertex the first that stands for it, empty if nothing is welded.");
+    bind_orders(m);
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
           "The fewest decimals that all values but max_misses have, -1 if there are too many.");
