@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         VersionError,
     )
     from ebz.codec.mesh import Mesh
+    from ebz.codec.order import Permutation
     from ebz.codec.statistics import Stats
     from ebz.coding import compress, decompress
     from ebz.files import read, write
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "Mesh": "ebz.codec.mesh",
+    "Permutation": "ebz.codec.order",
     "Stats": "ebz.codec.statistics",
     "Verification": "ebz.codec.compare",
     "compress": "ebz.coding",
@@ -66,6 +68,7 @@ __all__ = [
     "MeshError",
     "NotEbzError",
     "OptionError",
+    "Permutation",
     "Stats",
     "TruncatedError",
     "Verification",

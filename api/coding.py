@@ -2,9 +2,12 @@
 
 import math
 import os
-from typing import Any
+from typing import Any, Literal, overload
+
+import numpy as np
 
 from ebz.codec import pipeline
+from ebz.codec.connectivity import OutputOrder
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
 from ebz.codec.lattice import MAX_BITS
@@ -13,6 +16,7 @@ from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
+from ebz.codec.order import Permutation
 from ebz.codec.pipeline import Progress
 from ebz.formats import container
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
@@ -20,20 +24,55 @@ from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 BytesLike = bytes | bytearray | memoryview
 
 
+@overload
+def compress(
+    mesh: Mesh,
+    *,
+    bits: int | None = ...,
+    max_error: float | None = ...,
+    keep_order: bool = ...,
+    return_permutation: Literal[False] = ...,
+    level: int = ...,
+    model: str | os.PathLike[str] | AnyTable | None = ...,
+    embed_model: bool = ...,
+    progress: Progress | None = ...,
+) -> bytes: ...
+
+
+@overload
+def compress(
+    mesh: Mesh,
+    *,
+    bits: int | None = ...,
+    max_error: float | None = ...,
+    keep_order: bool = ...,
+    return_permutation: Literal[True],
+    level: int = ...,
+    model: str | os.PathLike[str] | AnyTable | None = ...,
+    embed_model: bool = ...,
+    progress: Progress | None = ...,
+) -> tuple[bytes, Permutation]: ...
+
+
 def compress(
     mesh: Mesh,
     *,
     bits: int | None = None,
     max_error: float | None = None,
+    keep_order: bool = False,
+    return_permutation: bool = False,
     level: int = DEFAULT_LEVEL,
     model: str | os.PathLike[str] | AnyTable | None = None,
     embed_model: bool = False,
     progress: Progress | None = None,
-) -> bytes:
+) -> bytes | tuple[bytes, Permutation]:
     """The .ebz bytes of a mesh; without `bits` and `max_error` nothing is lost.
 
     bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).
     max_error: in model units; no coordinate moves by more.  At most one of the two.
+    keep_order: vertices, faces and the first corner of each face come back as they are; without it
+    their order may change.
+    return_permutation: also return where the vertices and faces of the decoded mesh come from.
     level: 1 (fast) to 9 (small).
     model: name of a built-in table, path of a table file, or a table, which must have a
     certificate (ebz.models.certify): the word is coded with it; None: with the level's adaptive
@@ -41,15 +80,24 @@ def compress(
     embed_model: code the word with a table and store that in the file.
     progress: called as progress(stage, done, total).
 
-    Order of vertices and faces may change.  compress(decompress(data)) gives the same bytes with
-    the same options.  Raises OptionError and MeshError.
+    compress(decompress(data)) gives the same bytes with the same options.  Raises OptionError and
+    MeshError.
     """
     _check_options(bits, max_error, level)
     table = None if model is None and not embed_model else load_model(model)
-    encoded = pipeline.encode(
-        mesh, table, level=level, bits=bits, max_error=max_error, progress=progress
+    encoded, order = pipeline.encode(
+        mesh,
+        table,
+        level=level,
+        bits=bits,
+        max_error=max_error,
+        keep_order=keep_order,
+        progress=progress,
     )
-    return container.write(encoded, embed_model=embed_model or _is_file(model))
+    data = container.write(encoded, embed_model=embed_model or _is_file(model))
+    if not return_permutation:
+        return data
+    return data, _identity(encoded) if keep_order else _permutation(order)
 
 
 def decompress(
@@ -90,6 +138,14 @@ def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
         source = None if isinstance(model, AnyTable) or model is None else os.fspath(model)
         raise OptionError(f"it guarantees nothing: {error.message}", source=source) from None
     return table
+
+
+def _identity(encoded: EncodedMesh) -> Permutation:
+    return Permutation(np.arange(encoded.n_vertices), np.arange(encoded.counts.n_faces))
+
+
+def _permutation(order: OutputOrder) -> Permutation:
+    return Permutation(order.vertices.astype(np.int64), order.faces.astype(np.int64))
 
 
 def _is_file(model: Any) -> bool:

@@ -43,6 +43,8 @@ def verify(
 ) -> Verification:
     """Check an .ebz file by decoding all of it, and compare it with the original if that is given.
 
+    The order of vertices and faces is compared where the file keeps it.
+
     Raises what decompress raises, and EbzError where vertices cannot be told apart.
     """
     encoded = parse(data, memory_limit)
@@ -50,4 +52,5 @@ def verify(
     checked = ["checksums", "every stream", "digest"]
     if against is None:
         return Verification(True, checked, len(mesh.vertices), len(mesh.faces))
-    return compare(mesh, against, encoded.lattice, checked)
+    keeps_order = encoded.streams.order.vertices is not None
+    return compare(mesh, against, encoded.lattice, checked, keeps_order=keeps_order)

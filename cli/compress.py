@@ -14,6 +14,7 @@ Examples:
   ebz compress bunny.ply                     writes bunny.ply.ebz
   ebz compress --bits 14 -o b.ebz bunny.ply  a grid of 2^14 steps
   ebz compress --max-error 0.005 *.stl       no coordinate moves by more
+  ebz compress --keep-order rig.ply          indices stay valid
   make-mesh | ebz compress > mesh.ebz        recognised by content
 
 On a terminal, one line per file tells the sizes; -q omits it, -v says more.
@@ -41,6 +42,11 @@ On a terminal, one line per file tells the sizes; -q omits it, -v says more.
     type=float,
     help="Move no coordinate by more than X, in units of the mesh.",
 )
+@click.option(
+    "--keep-order",
+    is_flag=True,
+    help="Keep the order of vertices and faces and the first corner of each face.",
+)
 @options.levels
 @click.option("--model", metavar="NAME|FILE", help="The model that codes connectivity.")
 @click.option("--embed-model", is_flag=True, help="Store the tables of the model in the file.")
@@ -64,8 +70,8 @@ def compress(
 
     PLY, OBJ, OFF, STL, glTF and GLB are read. Nothing is lost unless --bits or --max-error
     allows it, not even isolated vertices or attributes; only the order of vertices and faces
-    may change. Mode and time of INPUT are kept. No INPUT, or "-", is standard input, which is
-    compressed to standard output.
+    may change, unless --keep-order is given. Mode and time of INPUT are kept. No INPUT, or "-",
+    is standard input, which is compressed to standard output.
     """
     if coding["bits"] is not None and coding["max_error"] is not None:
         raise click.UsageError("--bits and --max-error exclude each other.")

@@ -29,7 +29,7 @@ Exit status: 0 fine, 1 an error (damage too), 2 a difference to MESH.
     "--against",
     metavar="MESH",
     type=click.Path(allow_dash=True, readable=False),
-    help="Compare with this mesh, up to the order of vertices and faces.",
+    help="Compare with this mesh, up to the order that INPUT does not keep.",
 )
 @options.as_json
 @options.memory_limit

@@ -56,19 +56,27 @@ class _Correspondence:
     how: str
 
 
-def compare(decoded: Mesh, original: Mesh, lattice: Lattice, checked: list[str]) -> Verification:
+def compare(
+    decoded: Mesh,
+    original: Mesh,
+    lattice: Lattice,
+    checked: list[str],
+    *,
+    keeps_order: bool = False,
+) -> Verification:
     """The verdict on a decoded mesh; raises UndecidedError where there is none.
 
-    lattice: the precision at which the mesh was stored.
+    lattice: the precision at which the mesh was stored.  keeps_order: whether its order was.
     """
     found: dict[str, Any] = {"vertices": len(decoded.vertices), "faces": len(decoded.faces)}
     difference = _different_kind(decoded, original)
     if difference:
         return Verification(False, checked, first_difference=difference, **found)
-    match = _by_traversal(decoded, original, lattice) or _by_data(decoded, original, lattice)
+    match = _match(decoded, original, lattice, keeps_order)
     if isinstance(match, str):
         return Verification(False, checked, first_difference=match, **found)
-    checked = [*checked, "faces and their orientation", "coordinates"]
+    order = ["order of vertices and faces"] if keeps_order else []
+    checked = [*checked, "faces and their orientation", *order, "coordinates"]
     source, got = original.vertices[match.vertices], decoded.vertices
     found |= {"matched_by": match.how, **_errors(got, source)}
     allowed = found["allowed_error"] = allowed_error(lattice, original)
@@ -101,6 +109,24 @@ def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
         if got != wanted:
             return f"{what}: {got}, not {wanted}"
     return None
+
+
+def _match(
+    decoded: Mesh, original: Mesh, lattice: Lattice, keeps_order: bool
+) -> _Correspondence | str:
+    if keeps_order:
+        return _by_order(decoded, original)
+    return _by_traversal(decoded, original, lattice) or _by_data(decoded, original, lattice)
+
+
+def _by_order(decoded: Mesh, original: Mesh) -> _Correspondence | str:
+    """The same indices, or the name of the first face that is another."""
+    differs = (decoded.faces != original.faces).any(axis=1)
+    if differs.any():
+        face = int(np.argmax(differs))
+        got, wanted = (mesh.faces[face].tolist() for mesh in (decoded, original))
+        return f"order: face {face} is {got}, not {wanted}"
+    return _Correspondence(np.arange(len(decoded.vertices)), np.arange(len(decoded.faces)), "order")
 
 
 def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
+from ebz.codec.order import OrderStreams
 from ebz.codec.positions import Method
 
 
@@ -39,7 +40,7 @@ class Streams:
     positions: bytes
     exception_rows: bytes
     exception_values: bytes
-    rotations: bytes | None  # None: the first corner of a face says nothing
+    order: OrderStreams
 
 
 @dataclass(frozen=True)

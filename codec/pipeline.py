@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import attributes, connectivity, lattice, metadata, positions, welding
+from ebz.codec import order as source_order
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
@@ -16,7 +17,8 @@ from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
 from ebz.codec.mesh import Mesh, face_dtype
-from ebz.codec.welding import Arrangement
+from ebz.codec.order import SourceOrder
+from ebz.codec.welding import Split
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
@@ -38,10 +40,12 @@ def encode(
     level: int = DEFAULT_LEVEL,
     bits: int | None = None,
     max_error: float | None = None,
+    keep_order: bool = False,
     progress: Progress | None = None,
-) -> EncodedMesh:
-    """Every part of a mesh as streams; nothing is lost unless bits or max_error say so.
+) -> tuple[EncodedMesh, OutputOrder]:
+    """Every part of a mesh as streams, and where the items of the output come from.
 
+    Nothing is lost unless bits or max_error say so, and the order without keep_order.
     model: of the word; None: the best of those of the level.
     """
     report = progress or _silent
@@ -63,6 +67,10 @@ def encode(
     stream, method = positions.encode(surface, points, stored.dtype, position_method(level))
     exact = mesh.vertices[arrangement.sites].reshape(-1)[points.exceptions]
     report("attributes", 3, N_STAGES)
+    keep_rotation = attributes.keeps_rotation(mesh.face_attributes)
+    split = welding.split(surface, arrangement.splits, len(stored))
+    known = source_order.Known(surface.opposite, split.vertex, points.integers[split.site])
+    kept = source_order.kept(order, keep_order=keep_order, keep_rotation=keep_rotation)
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -79,15 +87,15 @@ def encode(
             positions=stream,
             exception_rows=encode_columns(gaps(points.exceptions)),
             exception_values=_encode_values(exact),
-            rotations=_encode_rotations(mesh, order),
+            order=source_order.encode(kept, known),
         ),
         vertex_attributes=attributes.encode(mesh.vertex_attributes, order.vertices),
         face_attributes=attributes.encode(mesh.face_attributes, order.faces),
         metadata=metadata.encode(mesh.metadata) if mesh.metadata else b"",
     )
-    decoded = _reordered(mesh, order, arrangement, stored[order.vertices])
+    decoded = _restored(mesh, order, kept, split, stored[order.vertices])
     report("done", N_STAGES, N_STAGES)
-    return replace(encoded, digest=digest(decoded))
+    return replace(encoded, digest=digest(decoded)), order
 
 
 def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded:
@@ -116,14 +124,14 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     if streams.splits is not None:
         vertices = vertices[split.site]
     report("attributes", 3, N_STAGES)
-    with corrupt_at(encoded.place("rotations")):
-        faces = _rotate(split.vertex.reshape(-1, 3), streams.rotations)
-    mesh = Mesh(
-        vertices=vertices,
-        faces=faces.astype(face_dtype(n_vertices), copy=False),
-        vertex_attributes=attributes.decode(encoded.vertex_attributes, n_vertices),
-        face_attributes=attributes.decode(encoded.face_attributes, counts.n_faces),
-        metadata=_decode_metadata(encoded),
+    known = source_order.Known(surface.opposite, split.vertex, integers[split.site])
+    mesh = _arranged(
+        vertices,
+        split,
+        source_order.decode(streams.order, known, place=encoded.place),
+        attributes.decode(encoded.vertex_attributes, n_vertices),
+        attributes.decode(encoded.face_attributes, counts.n_faces),
+        _decode_metadata(encoded),
     )
     report("done", N_STAGES, N_STAGES)
     if digest(mesh) != encoded.digest:
@@ -161,35 +169,39 @@ def _decode_exceptions(encoded: EncodedMesh, n_vertices: int) -> npt.NDArray[np.
     return rows
 
 
-def _encode_rotations(mesh: Mesh, order: OutputOrder) -> bytes | None:
-    """How far each source face's first corner is from the gate, where it may matter."""
-    if not attributes.keeps_rotation(mesh.face_attributes):
-        return None
-    return encode_columns(-order.corners % 3)
-
-
-def _rotate(faces: npt.NDArray[np.int32], rotations: bytes | None) -> npt.NDArray[np.int32]:
-    if rotations is None:
-        return faces
-    (first,) = decode_columns(rotations, len(faces), 1)
-    if (first > 2).any():
-        raise CorruptError("a face has three corners only")
-    corners = (first.astype(np.intp)[:, None] + np.arange(3)) % 3
-    return np.take_along_axis(faces, corners, axis=1)
-
-
-def _reordered(
-    mesh: Mesh, order: OutputOrder, arrangement: Arrangement, vertices: lattice.Floats
+def _restored(
+    mesh: Mesh,
+    order: OutputOrder,
+    kept: SourceOrder,
+    split: Split,
+    vertices: lattice.Floats,
 ) -> Mesh:
-    """The mesh as decoding will yield it."""
-    faces = arrangement.vertex.reshape(-1, 3)
-    if attributes.keeps_rotation(mesh.face_attributes):
-        first = (-order.corners % 3).astype(np.intp)
-        faces = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
+    """The mesh as decoding will yield it; vertices: those of the output."""
+    by_vertex, by_face = mesh.vertex_attributes, mesh.face_attributes
+    return _arranged(
+        vertices,
+        split,
+        kept,
+        {name: values[order.vertices] for name, values in by_vertex.items()},
+        {name: values[order.faces] for name, values in by_face.items()},
+        mesh.metadata,
+    )
+
+
+def _arranged(
+    vertices: lattice.Floats,
+    split: Split,
+    kept: SourceOrder,
+    vertex_attributes: attributes.Attributes,
+    face_attributes: attributes.Attributes,
+    carried: dict[str, Any],
+) -> Mesh:
+    """The mesh from what is in output order."""
+    faces = kept.place_corners(split.vertex.reshape(-1, 3))
     return Mesh(
-        vertices=vertices,
+        vertices=kept.place_vertices(vertices),
         faces=faces.astype(face_dtype(len(vertices)), copy=False),
-        vertex_attributes={k: v[order.vertices] for k, v in mesh.vertex_attributes.items()},
-        face_attributes={k: v[order.faces] for k, v in mesh.face_attributes.items()},
-        metadata=mesh.metadata,
+        vertex_attributes={k: kept.place_vertices(v) for k, v in vertex_attributes.items()},
+        face_attributes={k: kept.place_faces(v) for k, v in face_attributes.items()},
+        metadata=carried,
     )

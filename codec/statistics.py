@@ -54,6 +54,7 @@ class Stats:
     streams: list[Stream]
     connectivity_bytes: int
     geometry_bytes: int
+    order_bytes: int
     attribute_bytes: int
     total_bytes: int
     raw_bytes: int
@@ -61,6 +62,7 @@ class Stats:
     bits_per_vertex: float
     connectivity_bits_per_vertex: float
     geometry_bits_per_vertex: float
+    order_bits_per_vertex: float
     guarantee_bits_per_vertex: float
     tutte_limit_bits_per_vertex: float
     valence_entropy_bits_per_vertex: float
@@ -90,9 +92,8 @@ def describe(
     euler = n_piece_vertices - n_edges + n_faces
     connectivity = _total(chunk_sizes, "word", "model", "special S", "gluing", "splits")
     geometry = _total(chunk_sizes, "positions", "exceptions")
-    attributes = _total(
-        chunk_sizes, "vertex attributes", "face attributes", "rotations", "metadata"
-    )
+    order = _total(chunk_sizes, "vertex order", "face order", "rotations")
+    attributes = _total(chunk_sizes, "vertex attributes", "face attributes", "metadata")
     total, raw = sum(chunk_sizes.values()), _raw_size(encoded)
     return Stats(
         vertices=n_vertices,
@@ -116,6 +117,7 @@ def describe(
         streams=[Stream(k, size, _per_vertex(size, n_vertices)) for k, size in chunk_sizes.items()],
         connectivity_bytes=connectivity,
         geometry_bytes=geometry,
+        order_bytes=order,
         attribute_bytes=attributes,
         total_bytes=total,
         raw_bytes=raw,
@@ -123,6 +125,7 @@ def describe(
         bits_per_vertex=_per_vertex(total, n_vertices),
         connectivity_bits_per_vertex=_per_vertex(connectivity, n_vertices),
         geometry_bits_per_vertex=_per_vertex(geometry, n_vertices),
+        order_bits_per_vertex=_per_vertex(order, n_vertices),
         guarantee_bits_per_vertex=guarantee,
         tutte_limit_bits_per_vertex=TUTTE_LIMIT,
         valence_entropy_bits_per_vertex=valence_entropy(surface),

@@ -19,6 +19,7 @@ from ebz.codec.lattice import (
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.load import AnyTable
+from ebz.codec.order import OrderStreams
 from ebz.codec.positions import FLOAT_METHODS, Method
 from ebz.formats import chunks, layout, records, tables
 from ebz.formats.chunks import Chunk
@@ -26,6 +27,7 @@ from ebz.formats.limits import check_declared_sizes
 
 # The order of chunks in a file.
 ORDER = list(layout.NAMES)
+ORDER_CHUNKS = (layout.VERTEX_ORDER, layout.FACE_ORDER, layout.ROTATIONS)
 REPEATED = {layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE}
 MAX_COUNT = 2**63
 
@@ -48,7 +50,9 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
         (layout.SPLITS, streams.splits),
         (layout.POSITIONS, streams.positions if encoded.n_vertices else b""),
         (layout.EXCEPTIONS, _exceptions(streams) if encoded.n_exceptions else b""),
-        (layout.ROTATIONS, streams.rotations),
+        (layout.VERTEX_ORDER, streams.order.vertices),
+        (layout.FACE_ORDER, streams.order.faces),
+        (layout.ROTATIONS, streams.order.rotations),
     ]
     parts += [chunks.write(kind, payload) for kind, payload in optional if payload]
     for array in encoded.vertex_attributes:
@@ -141,7 +145,9 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
             positions=payload(layout.POSITIONS),
             exception_rows=exceptions.rows,
             exception_values=exceptions.exact,
-            rotations=found[layout.ROTATIONS].payload if layout.ROTATIONS in found else None,
+            order=OrderStreams(
+                *(found[kind].payload if kind in found else None for kind in ORDER_CHUNKS)
+            ),
         ),
         vertex_attributes=arrays[layout.VERTEX_ATTRIBUTE],
         face_attributes=arrays[layout.FACE_ATTRIBUTE],
@@ -190,6 +196,7 @@ def _check_header(header: Any) -> None:
 
 def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
     """A chunk is there where the header says that it holds something, and not otherwise."""
+    has_faces, keeps_order = header.n_symbols > 0, layout.VERTEX_ORDER in found
     needed = {
         layout.MODEL: header.model == layout.INLINE_MODEL,
         layout.WORD: header.n_symbols > 0,
@@ -197,6 +204,9 @@ def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
         layout.GLUING: header.n_copies > 0,
         layout.POSITIONS: header.n_vertices > 0,
         layout.EXCEPTIONS: header.n_exceptions > 0,
+        layout.VERTEX_ORDER: keeps_order and header.n_vertices > 0,
+        layout.FACE_ORDER: keeps_order and has_faces,
+        layout.ROTATIONS: has_faces and (keeps_order or layout.ROTATIONS in found),
     }
     for kind, is_needed in needed.items():
         if is_needed and kind not in found:

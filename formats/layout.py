@@ -39,7 +39,8 @@ VERSION = 1
 
 # Chunk types: upper case is required to decode, a reader skips what it does not know in lower case.
 HEADER, MODEL, WORD, SPECIALS, GLUING = b"H", b"M", b"W", b"S", b"G"
-SPLITS, POSITIONS, EXCEPTIONS, ROTATIONS = b"I", b"P", b"X", b"R"
+SPLITS, POSITIONS, EXCEPTIONS = b"I", b"P", b"X"
+VERTEX_ORDER, FACE_ORDER, ROTATIONS = b"N", b"O", b"R"
 VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, METADATA, END = b"V", b"F", b"D", b"Z"
 
 NAMES = {
@@ -51,6 +52,8 @@ NAMES = {
     SPLITS: "splits",
     POSITIONS: "positions",
     EXCEPTIONS: "exceptions",
+    VERTEX_ORDER: "vertex order",
+    FACE_ORDER: "face order",
     ROTATIONS: "rotations",
     VERTEX_ATTRIBUTE: "vertex attributes",
     FACE_ATTRIBUTE: "face attributes",

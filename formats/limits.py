@@ -7,10 +7,11 @@ from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
+from ebz.codec.order import Method as OrderMethod
 
 # The cheapest adaptive bit: AdaptiveBit in codec/kernels/adaptive_bit.hpp.
 CHEAPEST_BIT = math.log2(65536 / (65536 - 32))
-# The cheapest decision about a position: its probability is at most 65535 / 2^16.
+# The cheapest decision about a position or an order: its probability is at most 65535 / 2^16.
 CHEAPEST_DECISION = math.log2(65536 / 65535)
 # What a range coder's stream of b bytes holds is at most 8 b bits and these.
 SLACK_BITS = 8
@@ -31,9 +32,8 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         n_coded = max(0, encoded.n_vertices - n_split)
         _check("vertices", n_coded, 3 * CHEAPEST_DECISION, streams.positions)
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
-    if streams.rotations is not None:
-        with corrupt_at(encoded.place("rotations")):
-            _check("rotations", counts.n_faces, CHEAPEST_BIT, streams.rotations)
+    _check_order("face order", counts.n_faces - 1, streams.order.faces, encoded)
+    _check_order("rotations", counts.n_faces, streams.order.rotations, encoded)
     n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
     size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
@@ -44,6 +44,12 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         raise MemoryLimitError(
             f"decoding takes up to {size:,} bytes of memory, past the limit of {memory_limit:,}"
         )
+
+
+def _check_order(part: str, count: int, stream: bytes | None, encoded: EncodedMesh) -> None:
+    if stream and stream[0] != OrderMethod.IDENTITY:
+        with corrupt_at(encoded.place(part)):
+            _check("faces", count, CHEAPEST_DECISION, stream[1:])
 
 
 def _check_symbols(encoded: EncodedMesh) -> None:

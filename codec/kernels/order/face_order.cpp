@@ -128,16 +128,16 @@ private:
     // By the greatest vertex, by the least, by their sum.
     void rank_by_vertices(std::span<const Index> vertex_source) {
         by_vertices_ = true;
-        std::array<std::vector<int64_t>, 3> keys;
-        for (size_t f = 0; f < source_.size(); ++f) {
-            std::array<int64_t, 3> v;
-            for (int i = 0; i < 3; ++i) v[i] = vertex_source[surface_.vertex[3 * f + i]];
-            std::sort(v.begin(), v.end());
-            keys[0].push_back(v[2] << 31 | v[1]);
-            keys[1].push_back(v[0] << 31 | v[1]);
-            keys[2].push_back(v[0] + v[1] + v[2]);
+        std::vector<int64_t> keys(source_.size());
+        for (int by = 0; by < 3; ++by) {
+            for (size_t f = 0; f < keys.size(); ++f) {
+                std::array<int64_t, 3> v;
+                for (int i = 0; i < 3; ++i) v[i] = vertex_source[surface_.vertex[3 * f + i]];
+                std::sort(v.begin(), v.end());
+                keys[f] = by == 0 ? v[2] << 31 | v[1] : by == 1 ? v[0] << 31 | v[1] : v[0] + v[1] + v[2];
+            }
+            ranks_.emplace_back(keys);
         }
-        for (const std::vector<int64_t>& key : keys) ranks_.emplace_back(key);
     }
 
     void rank_by_position(std::span<const int64_t> positions, int axis) {

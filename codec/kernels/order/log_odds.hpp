@@ -78,7 +78,7 @@ private:
     std::vector<Weight> weights_ = std::vector<Weight>((size_t{1} * ... * extents));
 };
 
-namespace logistic {
+namespace logarithms {
 
 inline constexpr int ln_fraction_bits = 6, ln_index_bits = 8;
 
@@ -95,11 +95,11 @@ inline constexpr auto ln_table = [] {
 }();
 inline constexpr int32_t ln_2 = 11357;  // in 2^-14
 
-}  // namespace logistic
+}  // namespace logarithms
 
 // ln(x) in units of stretch, rounded down; x > 0.
 inline int logarithm(uint32_t x) {
-    using namespace logistic;
+    using namespace logarithms;
     const int width = std::bit_width(x) - 1;
     const uint32_t mantissa = width > ln_index_bits ? x >> (width - ln_index_bits) : x << (ln_index_bits - width);
     return (width * ln_2 + ln_table[mantissa - (1u << ln_index_bits)]) >> ln_fraction_bits;
