@@ -211,7 +211,7 @@ class Known:
 
 
 def _rotations_alone(known: Known, rotations: Rotations | None) -> bytes | None:
-    if rotations is None:
+    if rotations is None or not len(rotations):
         return None
     numbers = _counting(known.n_faces), _counting(known.n_vertices)
     return known.encode_rotations(rotations, *numbers)

@@ -290,3 +290,12 @@ def test_completion_comes_from_click(sh):
 
 def test_the_tetrahedron_is_as_these_tests_presume():
     assert len(TETRAHEDRON) == 210
+
+
+def test_kept_order_gives_the_same_file_back(sh):
+    script = """
+        ebz sample torus -n 300 > s.ply
+        ebz compress --keep-order < s.ply | ebz decompress | cmp - s.ply
+        ebz compress --keep-order < s.ply | ebz verify --against s.ply > report
+    """
+    assert sh(script) == NOTHING
