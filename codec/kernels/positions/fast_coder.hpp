@@ -1,154 +1,185 @@
-// Codes vertices in order of first contact with the faces: the least work per vertex.
+// Codes vertices in the order of the faces, each from the face behind its gate.
 //
-// Prediction is the mean of the parallelograms known around the vertex; each binary decision of a
-// residual has one counted context, the size of residuals and the spread of parallelograms nearby.
+// Prediction is one parallelogram, or the mean of two where the next face on the right is known too.
+// The size of a residual is a symbol in the context of the sizes at the gate; its digits are raw.
+// Each axis has its own coder (ans.hpp): the three run side by side.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "../adaptive_symbol.hpp"
+#include "../ans.hpp"
 #include "surface.hpp"
-#include "fast_model.hpp"
-#include "float_logistic.hpp"
-#include "seed_model.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
 
-class FastPredictor {
+// Half-octaves: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, ...
+inline uint32_t half_octave(uint64_t a) {
+    if (a < 2) return static_cast<uint32_t>(a);
+    const int top = 63 - std::countl_zero(a);
+    return 2 * static_cast<uint32_t>(top) + (static_cast<uint32_t>(a >> (top - 1)) & 1);
+}
+
+class FastModel {
 public:
-    FastPredictor(const Surface& mesh, std::span<const int64_t> xyz)
-        : mesh_(mesh), xyz_(xyz), known_(xyz.size() / 3, 0), sizes_(xyz.size(), 0) {}
+    static constexpr size_t n_kinds = 4;
 
-    bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
-
-    // For the vertex of corner c; false if no neighbour in the faces around it is known.
-    bool predict(int32_t c) {
-        n_ = n_neighbours_ = 0;
-        sum_ = spread_ = {};
-        size_ = {};
-        before_ = 0;
-        visit(c);
-        walk(c);
-        if (n_neighbours_ == 0) return false;
-        const double share = n_ > 0 ? 1.0 / n_ : 0;  // without parallelograms: the first neighbour
-        for (size_t d = 0; d < 3; ++d) base_[d] = wrapping_sum(origin_[d], rounded(sum_[d] * share));
-        return true;
+    // expected: the half-octave that the magnitude of e is expected in.
+    template <class Coder>
+    int64_t code(Coder& coder, size_t axis, size_t kind, uint32_t expected, int64_t e) {
+        const int shift = expected > centre ? std::min(static_cast<int>(expected - centre) / 2, max_shift) : 0;
+        AdaptiveSymbol& row = rows_[axis][kind][std::min<size_t>(expected, n_expected - 1)];
+        const uint64_t a = magnitude(e);
+        const bool negative = e < 0;
+        const uint32_t token = coder.symbol(axis, row, std::min(half_octave(a >> shift), escape));
+        if (token == escape) return code_large(coder, axis, e);
+        const int n_digits = (token < 4 ? 0 : static_cast<int>(token) / 2 - 1) + shift;
+        const uint64_t leading = token < 4 ? token : 2 + (token & 1);
+        if (token == 0 && shift == 0) return 0;
+        const uint64_t digits = (a & ((uint64_t{1} << n_digits) - 1)) << 1 | negative;
+        const uint64_t decoded = code_digits(coder, axis, digits, n_digits + 1);
+        return with_sign(leading << n_digits | decoded >> 1, decoded & 1);
     }
-
-    int64_t base(size_t d) const { return base_[d]; }
-
-    // Half-octaves of the expected size of the residual, and whether it is a guess.
-    int level(size_t d) const {
-        const float size = static_cast<float>(size_[d]) / static_cast<float>(n_neighbours_);
-        const float spread = n_ > 1 ? static_cast<float>(std::min(spread_[d], 1e15)) / static_cast<float>(n_ - 1) : size;
-        return std::clamp(static_cast<int>(log2_approx(0.6f * size + 0.4f * spread + 0.125f) * 2.0f + 6.0f), 0, 90);
-    }
-    // How large the residuals on earlier axes came out: 0 zero, 1 small, 2 large; + 3 without parallelograms.
-    size_t confidence(size_t d) const {
-        const int64_t limit = size_[d] / n_neighbours_;
-        return (before_ == 0 && d > 0 ? 0 : before_ <= limit ? 1 : 2) + (n_ > 1 ? 0 : 3);
-    }
-
-    void learn(int32_t v, size_t d, int64_t e) {
-        const int64_t size = std::clamp<int64_t>(e, -max_size, max_size);
-        sizes_[3 * static_cast<size_t>(v) + d] = static_cast<int32_t>(size < 0 ? -size : size);
-        before_ = std::max<int64_t>(before_, size < 0 ? -size : size);
-    }
-
-    void settle(int32_t v) { known_[static_cast<size_t>(v)] = 1; }
 
 private:
-    static constexpr int64_t max_size = 1 << 28;
-    static constexpr int max_steps = 8;  // around a vertex
+    static constexpr uint32_t escape = 15, centre = 8;
+    static constexpr int max_shift = 50;  // digits and all stay below 2^64
+    static constexpr size_t n_expected = 32;
+
+    static int64_t with_sign(uint64_t a, uint64_t negative) { return static_cast<int64_t>((a ^ (0 - negative)) + negative); }
+
+    template <class Coder>
+    static uint64_t code_digits(Coder& coder, size_t axis, uint64_t digits, int n_digits) {
+        if (n_digits <= ans::max_raw) return coder.raw(axis, static_cast<uint32_t>(digits), n_digits);
+        uint64_t value = 0;
+        while (n_digits > 0) {
+            const int n = std::min(n_digits, ans::max_raw);
+            n_digits -= n;
+            value = value << n | coder.raw(axis, static_cast<uint32_t>(digits >> n_digits) & ((1u << n) - 1), n);
+        }
+        return value;
+    }
+
+    template <class Coder>
+    static int64_t code_large(Coder& coder, size_t axis, int64_t e) {
+        const uint64_t zigzag = static_cast<uint64_t>(e) << 1 ^ static_cast<uint64_t>(e >> 63);
+        const auto n_digits = static_cast<int>(coder.raw(axis, static_cast<uint32_t>(63 - std::countl_zero(zigzag | 1)), 6));
+        const uint64_t digits = zigzag & ((uint64_t{1} << n_digits) - 1);
+        const uint64_t decoded = uint64_t{1} << n_digits | code_digits(coder, axis, digits, n_digits);
+        return static_cast<int64_t>(decoded >> 1 ^ (0 - (decoded & 1)));
+    }
+
+    std::array<std::array<std::array<AdaptiveSymbol, n_expected>, n_kinds>, 3> rows_;
+};
+
+template <class Coder>
+class FastCoder {
+public:
+    FastCoder(Coder& coder, const Surface& mesh, std::span<int64_t> xyz)
+        : coder_(coder), mesh_(mesh), xyz_(xyz.data()), n_vertices_(mesh.n_vertices), sizes_(xyz.size() / 3 + 1) {}
+
+    void run() {
+        const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
+        for (int32_t t = 0; t < n_faces; ++t) {
+            const int32_t gate = 3 * t;
+            if (vertex(gate + 2) >= known_ && vertex(gate) < known_ && vertex(gate + 1) < known_ && opposite(gate) >= 0) {
+                tip(gate);
+                continue;
+            }
+            for (int32_t c = gate; c < gate + 3; ++c)
+                if (vertex(c) >= known_) first_of_component(c);
+        }
+        while (known_ < n_vertices_) isolated();
+    }
+
+private:
+    using Sizes = std::array<uint8_t, 4>;
 
     int32_t vertex(int32_t c) const { return mesh_.vertex[static_cast<size_t>(c)]; }
     int32_t opposite(int32_t c) const { return mesh_.opposite[static_cast<size_t>(c)]; }
+    const int64_t* position(int32_t v) const { return xyz_ + 3 * static_cast<size_t>(v); }
 
-    // The other corners of the same vertex, to both sides.
-    void walk(int32_t c) {
-        int steps = 0;
-        for (int32_t at = opposite(previous(c)); at >= 0 && at != c && steps < max_steps; ++steps) {
-            visit(at);
-            at = opposite(previous(at));
+    void tip(int32_t gate) {
+        const int32_t a = vertex(gate), b = vertex(gate + 1), o = vertex(previous(opposite(gate)));
+        std::array<uint64_t, 3> base;
+        for (size_t d = 0; d < 3; ++d) base[d] = sum(a, b, o, d);
+        size_t kind = 0;
+        const int32_t y = second(gate + 1), x = y < 0 ? -1 : x_;
+        if (y >= 0) {
+            kind = 1;
+            for (size_t d = 0; d < 3; ++d) {
+                const uint64_t other = sum(b, x, y, d) - base[d];
+                base[d] += static_cast<uint64_t>(static_cast<int64_t>(other) >> 1);
+            }
         }
-        for (int32_t across = opposite(c); across >= 0 && steps < max_steps; ++steps) {
-            const int32_t at = next(across);
-            if (at == c) break;
-            visit(at);
-            across = opposite(at);
-        }
+        code(kind, base, sizes_[static_cast<size_t>(a)], sizes_[static_cast<size_t>(b)]);
     }
 
-    void visit(int32_t c) {
-        const int32_t a = vertex(next(c)), b = vertex(previous(c));
-        if (known(a)) add_neighbour(a);
-        if (!known(a) || !known(b)) {
-            if (known(b) && n_neighbours_ == 0) add_neighbour(b);
-            return;
-        }
-        const int32_t across = opposite(next(c));
-        if (across < 0 || !known(vertex(previous(across)))) return;
-        const size_t ia = 3 * static_cast<size_t>(a), ib = 3 * static_cast<size_t>(b),
-                     io = 3 * static_cast<size_t>(vertex(previous(across)));
+    // The apex of the second parallelogram, across from the tip: behind the face on the right (which has the
+    // tip, the end of the gate and x_).
+    int32_t second(int32_t right) {
+        const int32_t across = opposite(right);
+        if (across < 0) return -1;
+        x_ = vertex(previous(across));
+        if (x_ >= known_) return -1;
+        const int32_t beyond = opposite(next(across));
+        if (beyond < 0) return -1;
+        const int32_t y = vertex(previous(beyond));
+        return y < known_ ? y : -1;
+    }
+
+    uint64_t sum(int32_t a, int32_t b, int32_t o, size_t d) const {
+        return static_cast<uint64_t>(position(a)[d]) + static_cast<uint64_t>(position(b)[d]) - static_cast<uint64_t>(position(o)[d]);
+    }
+
+    void first_of_component(int32_t c) {
+        from_latest(c % 3 == 0 ? 2 : 3);
+    }
+
+    void isolated() { from_latest(2); }
+
+    void from_latest(size_t kind) {
+        std::array<uint64_t, 3> base{};
+        for (size_t d = 0; known_ > 0 && d < 3; ++d) base[d] = static_cast<uint64_t>(position(known_ - 1)[d]);
+        Sizes& steps = steps_[kind - 2];
+        code(kind, base, steps, steps);
+        steps = sizes_[static_cast<size_t>(known_ - 1)];
+        sizes_[static_cast<size_t>(known_ - 1)] = {};
+    }
+
+    void code(size_t kind, const std::array<uint64_t, 3>& base, const Sizes& sa, const Sizes& sb) {
+        int64_t* at = xyz_ + 3 * static_cast<size_t>(known_);
+        Sizes& sizes = sizes_[static_cast<size_t>(known_)];
         for (size_t d = 0; d < 3; ++d) {
-            const uint64_t corner = static_cast<uint64_t>(xyz_[ia + d]) + static_cast<uint64_t>(xyz_[ib + d]) -
-                                    static_cast<uint64_t>(xyz_[io + d]) - static_cast<uint64_t>(origin_[d]);
-            const auto tip = static_cast<double>(static_cast<int64_t>(corner));
-            if (n_ > 0) spread_[d] += tip > last_tip_[d] ? tip - last_tip_[d] : last_tip_[d] - tip;
-            last_tip_[d] = tip;
-            sum_[d] += tip;
+            const uint32_t expected = (uint32_t{sa[d]} + sb[d] + 1) / 2;
+            const int64_t e = model_.code(coder_, d, kind, expected, static_cast<int64_t>(static_cast<uint64_t>(at[d]) - base[d]));
+            at[d] = static_cast<int64_t>(base[d] + static_cast<uint64_t>(e));
+            sizes[d] = static_cast<uint8_t>(half_octave(magnitude(e)));
         }
-        ++n_;
+        ++known_;
     }
 
-    void add_neighbour(int32_t u) {
-        const size_t at = 3 * static_cast<size_t>(u);
-        for (size_t d = 0; d < 3; ++d) {
-            if (n_neighbours_ == 0) origin_[d] = xyz_[at + d];
-            size_[d] += sizes_[at + d];
-        }
-        ++n_neighbours_;
-    }
-
+    Coder& coder_;
     const Surface& mesh_;
-    std::span<const int64_t> xyz_;
-    std::vector<uint8_t> known_;
-    std::vector<int32_t> sizes_;  // magnitudes of residuals
-    std::array<double, 3> sum_{}, spread_{}, last_tip_{};
-    std::array<int64_t, 3> origin_{}, base_{}, size_{};
-    int n_ = 0, n_neighbours_ = 0;
-    int64_t before_ = 0;
+    int64_t* xyz_;
+    int32_t n_vertices_, known_ = 0, x_ = -1;
+    std::vector<Sizes> sizes_;
+    std::array<Sizes, 2> steps_{};
+    FastModel model_;
 };
 
 template <class Coder>
 void code_positions_fast(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
-    FastPredictor predictor(mesh, xyz);
-    const auto model = std::make_unique<FastModel>();
-    SeedModel seeds;
-    const auto code_vertex = [&](int32_t v, bool predicted) {
-        const auto position = xyz.subspan(3 * static_cast<size_t>(v), 3);
-        if (!predicted) seeds.code(coder, position);
-        for (size_t d = 0; predicted && d < 3; ++d) {
-            const int64_t base = predictor.base(d);
-            const int64_t e = model->code(coder, d, predictor.confidence(d), predictor.level(d),
-                                          wrapping_difference(position[d], base));
-            position[d] = wrapping_sum(base, e);
-            predictor.learn(v, d, e);
-        }
-        predictor.settle(v);
-    };
-    for (size_t c = 0; c < mesh.vertex.size(); ++c) {
-        const int32_t v = mesh.vertex[c];
-        if (!predictor.known(v)) code_vertex(v, predictor.predict(static_cast<int32_t>(c)));
-    }
-    for (int32_t v = 0; v < mesh.n_vertices; ++v)
-        if (!predictor.known(v)) code_vertex(v, false);
+    const auto fast = std::make_unique<FastCoder<Coder>>(coder, mesh, xyz);
+    fast->run();
 }
 
 }  // namespace ebz::positions

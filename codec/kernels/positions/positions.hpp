@@ -16,7 +16,7 @@
 namespace ebz::positions {
 
 enum class Method : uint8_t {
-    fast,    // one counted context per decision
+    fast,    // one symbol per coordinate, three coders side by side
     light,   // a few mixed decisions
     strong,  // every model there is
     float32_bits,  // values are floats by their order (spaces.hpp), predictions are made in floats

@@ -1,0 +1,91 @@
+// Adaptive frequencies of 16 symbols: cumulative frequencies that move towards each symbol seen.
+//
+// Reference: F. Giesen, "Models for adaptive arithmetic coding", 2015.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace ebz {
+
+struct Share {
+    uint16_t start, frequency;
+};
+
+class alignas(16) AdaptiveSymbol {
+public:
+    static constexpr int total_bits = 15;
+    static constexpr int n_symbols = 16;
+    static constexpr int least_frequency = 8;  // of 2^15
+
+    constexpr AdaptiveSymbol() {
+        for (int i = 0; i <= n_symbols; ++i) starts_[i] = static_cast<uint16_t>(i * (total / n_symbols));
+    }
+
+    Share share(uint32_t symbol) const {
+        return {starts_[symbol], static_cast<uint16_t>(starts_[symbol + 1] - starts_[symbol])};
+    }
+
+    // The symbol that owns slot < 2^15.
+    uint32_t find(uint32_t slot) const {
+#ifdef __SSE2__
+        const __m128i at = _mm_set1_epi16(static_cast<int16_t>(slot));
+        const auto* row = reinterpret_cast<const __m128i*>(starts_.data());
+        const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(_mm_load_si128(row), at), _mm_cmpgt_epi16(_mm_load_si128(row + 1), at));
+        return static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1u << n_symbols)) - 1;
+#else
+        uint32_t symbol = 0;
+        while (symbol + 1 < n_symbols && starts_[symbol + 1] <= slot) ++symbol;
+        return symbol;
+#endif
+    }
+
+    // Every start moves by 2^-rate of its distance to where it would be if only this symbol occurred;
+    // the rate falls from 1/8 to 1/64 (rounding keeps each frequency at least_frequency or above).
+    void learn(uint32_t symbol) {
+        const int rate = rates[n_seen_];
+        n_seen_ = static_cast<uint8_t>(std::min<int>(n_seen_ + 1, max_seen));
+#ifdef __SSE2__
+        auto* row = reinterpret_cast<__m128i*>(starts_.data());
+        const auto* target = reinterpret_cast<const __m128i*>(targets[symbol].data());
+        const __m128i shift = _mm_cvtsi32_si128(rate);
+        for (int i = 0; i < 2; ++i) {
+            const __m128i old = _mm_load_si128(row + i);
+            _mm_store_si128(row + i, _mm_add_epi16(old, _mm_sra_epi16(_mm_sub_epi16(_mm_load_si128(target + i), old), shift)));
+        }
+#else
+        for (int i = 0; i < n_symbols; ++i) {
+            const int old = starts_[i];
+            starts_[i] = static_cast<uint16_t>(old + ((targets[symbol][i] - old) >> rate));
+        }
+#endif
+    }
+
+private:
+    static constexpr int total = 1 << total_bits;
+    static constexpr int max_seen = 63;
+
+    struct alignas(16) Row : std::array<int16_t, n_symbols> {};
+    static constexpr auto targets = [] {
+        std::array<Row, n_symbols> table{};
+        for (int s = 0; s < n_symbols; ++s)
+            for (int i = 0; i < n_symbols; ++i)
+                table[s][i] = static_cast<int16_t>(least_frequency * i + (i > s ? total - least_frequency * n_symbols : 0));
+        return table;
+    }();
+    static constexpr auto rates = [] {
+        std::array<uint8_t, max_seen + 1> table{};
+        for (int n = 0; n <= max_seen; ++n) table[n] = static_cast<uint8_t>(n < 6 ? 3 : n < 20 ? 4 : n < max_seen ? 5 : 6);
+        return table;
+    }();
+
+    std::array<uint16_t, n_symbols + 1> starts_{};
+    uint8_t n_seen_ = 0;
+};
+
+}  // namespace ebz

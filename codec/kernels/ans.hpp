@@ -1,0 +1,132 @@
+// Interleaved range ANS: several coders, one stream, so that the decoders of independent symbols overlap.
+//
+// Reference: J. Duda, "Asymmetric numeral systems", 2009; F. Giesen, "Interleaved entropy coders", 2014.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "adaptive_symbol.hpp"
+
+namespace ebz::ans {
+
+// Between symbols a state is in [2^24, 2^56), and at the end 2^24; words of 32 bits go in and out.
+inline constexpr int least_bits = 24, word_bits = 32, state_bytes = 7;
+inline constexpr uint64_t least = uint64_t{1} << least_bits;
+inline constexpr int max_raw = 16;
+
+// Notes what is coded; finish() codes it from the last to the first.
+template <size_t n_lanes>
+class Encoder {
+public:
+    static constexpr bool encoding = true;
+
+    uint32_t symbol(size_t lane, AdaptiveSymbol& model, uint32_t symbol) {
+        const Share share = model.share(symbol);
+        steps_.push_back({share.start, share.frequency, AdaptiveSymbol::total_bits, static_cast<uint16_t>(lane)});
+        model.learn(symbol);
+        return symbol;
+    }
+
+    // The low n_bits <= max_raw of `value`, which has no others.
+    uint32_t raw(size_t lane, uint32_t value, int n_bits) {
+        steps_.push_back({static_cast<uint16_t>(value), 1, static_cast<uint16_t>(n_bits), static_cast<uint16_t>(lane)});
+        return value;
+    }
+
+    // The bytes.  A stream of b bytes holds less than 8 b bits of information.
+    std::vector<uint8_t> finish() {
+        std::array<uint64_t, n_lanes> states;
+        states.fill(least);
+        std::vector<uint32_t> words;
+        for (size_t i = steps_.size(); i-- > 0;) {
+            const Step& step = steps_[i];
+            uint64_t& state = states[step.lane];
+            if (state >= uint64_t{step.frequency} << (least_bits + word_bits - step.total_bits)) {
+                words.push_back(static_cast<uint32_t>(state));
+                state >>= word_bits;
+            }
+            state = step.frequency == 1 ? state << step.total_bits | step.start
+                                        : (state / step.frequency << step.total_bits) + state % step.frequency + step.start;
+        }
+        std::vector<uint8_t> bytes;
+        bytes.reserve(n_lanes * state_bytes + 4 * words.size());
+        const auto write = [&](uint64_t value, int n) {
+            for (int i = 0; i < n; ++i) bytes.push_back(static_cast<uint8_t>(value >> (8 * i)));
+        };
+        for (const uint64_t state : states) write(state, state_bytes);
+        for (size_t i = words.size(); i-- > 0;) write(words[i], 4);
+        return bytes;
+    }
+
+private:
+    struct Step {
+        uint16_t start, frequency, total_bits, lane;
+    };
+
+    std::vector<Step> steps_;
+};
+
+// Past the end of the stream everything reads as zero: any bytes decode to something.
+template <size_t n_lanes>
+class Decoder {
+public:
+    static constexpr bool encoding = false;
+
+    explicit Decoder(std::span<const uint8_t> bytes)
+        : bytes_(std::max(bytes.size(), n_lanes * state_bytes) + 8, 0) {
+        if (!bytes.empty()) std::memcpy(bytes_.data(), bytes.data(), bytes.size());
+        const uint8_t* at = bytes_.data();
+        for (uint64_t& state : states_) {
+            state = 0;
+            for (int i = 0; i < state_bytes; ++i) state |= uint64_t{*at++} << (8 * i);
+        }
+        at_ = n_lanes * state_bytes;
+        last_ = bytes_.size() - 4;
+    }
+
+    uint32_t symbol(size_t lane, AdaptiveSymbol& model, uint32_t) {
+        uint64_t& state = states_[lane];
+        const auto slot = static_cast<uint32_t>(state) & ((1u << AdaptiveSymbol::total_bits) - 1);
+        const uint32_t symbol = model.find(slot);
+        const Share share = model.share(symbol);
+        state = share.frequency * (state >> AdaptiveSymbol::total_bits) + slot - share.start;
+        refill(state);
+        model.learn(symbol);
+        return symbol;
+    }
+
+    uint32_t raw(size_t lane, uint32_t, int n_bits) {
+        uint64_t& state = states_[lane];
+        const auto value = static_cast<uint32_t>(state) & ((1u << n_bits) - 1);
+        state >>= n_bits;
+        refill(state);
+        return value;
+    }
+
+private:
+    // Without a branch: whether a word is due is as good as random.
+    void refill(uint64_t& state) {
+        const uint8_t* p = bytes_.data() + at_;
+        uint32_t word;
+        std::memcpy(&word, p, 4);
+        if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap32(word);
+        const bool due = state < least;
+        const uint64_t filled = state << word_bits | word;
+        state = due ? filled : state;
+        at_ += due ? 4 : 0;
+        at_ = at_ < last_ ? at_ : last_;
+    }
+
+    std::vector<uint8_t> bytes_;  // with zeros at the end
+    size_t at_, last_;
+    std::array<uint64_t, n_lanes> states_;
+};
+
+}  // namespace ebz::ans
