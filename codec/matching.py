@@ -16,14 +16,19 @@ MAX_ROUNDS = 100
 
 @dataclass(frozen=True)
 class Labelled:
-    """faces: (m, 3) indices; data: (n, k) bytes of each vertex."""
+    """faces: (m, 3) indices; data: (n, k) bytes of each vertex; face_data: (m, j) of each face."""
 
     faces: npt.NDArray[Any]
     data: npt.NDArray[np.uint8]
+    face_data: npt.NDArray[np.uint8]
 
 
 def match(a: Labelled, b: Labelled) -> tuple[Colours, Colours] | str | None:
-    """For each vertex and face of `a`, that of `b`; the name of a difference; None if undecided."""
+    """For each vertex and face of `a`, that of `b`; the name of a difference; None if undecided.
+
+    Faces with the same vertices are told apart by their data; other differences of data between
+    faces are for the caller to find.
+    """
     colours = _ranks(np.concatenate([_rows(a.data), _rows(b.data)]))
     ours, theirs = np.split(colours, [len(a.data)])
     if not _same_counts(ours, theirs):
@@ -49,8 +54,15 @@ def rotated(faces: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
 
 def as_bytes(values: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
     """(n, k) the bytes of each entry."""
-    flat = np.ascontiguousarray(values).reshape(len(values), -1)
-    return flat.view(np.uint8).reshape(len(values), -1)
+    flat = np.frombuffer(np.ascontiguousarray(values).tobytes(), np.uint8)
+    return flat.reshape(len(values), values[:1].nbytes if len(values) else 0)
+
+
+def same_rows(a: npt.NDArray[np.uint8], b: npt.NDArray[np.uint8]) -> bool:
+    """Whether the rows are the same but for their order."""
+    if a.shape != b.shape:
+        return False
+    return not a.size or np.array_equal(np.sort(_rows(a)), np.sort(_rows(b)))
 
 
 def _by_colours(
@@ -60,7 +72,8 @@ def _by_colours(
     vertex_of_colour = np.empty(len(theirs), np.int64)
     vertex_of_colour[theirs] = np.arange(len(theirs))
     left, right = rotated(ours[a.faces]), rotated(theirs[b.faces])
-    left_order, right_order = np.lexsort(left.T), np.lexsort(right.T)
+    left_order = np.lexsort([*a.face_data.T, *left.T])
+    right_order = np.lexsort([*b.face_data.T, *right.T])
     if not np.array_equal(left[left_order], right[right_order]):
         return "faces"
     faces = np.empty(len(left), np.int64)
