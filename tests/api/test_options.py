@@ -76,9 +76,10 @@ def test_a_table_of_ones_own_is_embedded():
 
 
 def test_progress_is_reported_from_start_to_end():
-    for call in (ebz.compress, lambda *args, **kw: ebz.decompress(ebz.compress(*args), **kw)):
-        reports = []
-        call(MESH, progress=lambda *report: reports.append(report))
+    data = ebz.compress(MESH)
+    for call, argument in ((ebz.compress, MESH), (ebz.decompress, data)):
+        reports: list[tuple[str, int, int]] = []
+        call(argument, progress=lambda *report, reports=reports: reports.append(report))
         totals = {total for _, _, total in reports}
         assert len(totals) == 1
         assert [done for _, done, _ in reports] == list(range(totals.pop() + 1))

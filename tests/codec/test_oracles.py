@@ -85,7 +85,7 @@ def test_carries_run_through_many_bytes(p1):
 
 
 def check_file(mesh: ebz.Mesh, model: str | None) -> None:
-    """Decodes the connectivity of a file with the twins alone; they know no adaptive model."""
+    """Decodes the connectivity of a file with nothing but the twins; no adaptive model."""
     data = ebz.compress(mesh, model=model)
     encoded = container.read(memoryview(data), memory_limit=1 << 30)
     counts, streams = encoded.counts, encoded.streams

@@ -1,5 +1,6 @@
 """stats of the zoo, against values that are known from the surfaces."""
 
+import warnings
 from functools import cache
 from pathlib import Path
 
@@ -14,8 +15,15 @@ SAMPLES = Path(__file__).parents[2] / "samples"
 
 
 @cache
+def read(name: str) -> ebz.Mesh:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ebz.DroppedWarning)
+        return ebz.read(SAMPLES / name)
+
+
+@cache
 def stats(name: str) -> Stats:
-    return ebz.stats(ebz.read(SAMPLES / name))
+    return ebz.stats(read(name))
 
 
 @pytest.mark.parametrize(
@@ -42,7 +50,7 @@ def test_topology_of_the_zoo(name, components, genus, loops):
 @pytest.mark.parametrize("path", sorted(SAMPLES.glob("*.ply")), ids=lambda path: path.name)
 def test_counts_and_sizes_add_up(path):
     found = stats(path.name)
-    mesh = ebz.read(path)
+    mesh = read(path.name)
     data = ebz.compress(mesh)
     assert (found.vertices, found.faces) == (len(mesh.vertices), len(mesh.faces))
     assert found.isolated_vertices == len(mesh.vertices) - len(np.unique(mesh.faces))
@@ -63,7 +71,8 @@ def test_symbols_add_up(path):
     n_specials = found.hole_and_handle_integers // 2
     assert symbols["E"] == symbols["S"] - n_specials + found.components
     euler = 2 * found.components - 2 * found.genus - found.boundary_loops
-    n_used = found.vertices - found.isolated_vertices + found.glued_vertices
+    n_sites = found.vertices - found.isolated_vertices - found.welded_vertices
+    n_used = n_sites + found.glued_vertices
     assert 3 * found.faces == 2 * (n_used + found.faces - euler) - found.boundary_edges
     n_closed = found.faces - sum(symbols.values())
     assert symbols["C"] == n_used - found.boundary_edges - 3 * n_closed
@@ -86,7 +95,7 @@ def test_valence_entropy_is_that_of_the_valences():
 
 
 def test_a_mesh_and_its_file_have_the_same_statistics():
-    mesh = ebz.read(SAMPLES / "annulus.ply")
+    mesh = read("annulus.ply")
     found = ebz.stats(mesh)
     assert found == ebz.stats(ebz.compress(mesh))
     assert TUTTE_LIMIT < found.guarantee_bits_per_vertex < 3.3234

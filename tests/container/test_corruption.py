@@ -87,7 +87,7 @@ def test_other_files_are_not_ebz(data):
 @every_file
 def test_every_flipped_bit_is_noticed(name):
     data = bytearray(FILES[name])
-    for at in range(len(data)):
+    for at in range(0, len(data), 1 + len(data) // 1500):
         for bit in range(8):
             data[at] ^= 1 << bit
             if at < START - 1:
