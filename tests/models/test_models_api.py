@@ -61,9 +61,9 @@ def test_a_table_in_a_file_needs_no_certificate(monkeypatch: pytest.MonkeyPatch)
     from ebz import coding
 
     monkeypatch.setattr(coding, "guaranteed_bits", lambda table: 0.0)
-    data = ebz.compress(TETRAHEDRON, model=unsound())
-    assert len(ebz.decompress(data).faces) == 4
-    assert ebz.verify(data, TETRAHEDRON).equal
+    triangle = ebz.Mesh(np.eye(3), np.array([(0, 1, 2)]))
+    data = ebz.compress(triangle, model=unsound())
+    assert ebz.verify(data, triangle).equal
     assert ebz.stats(data).guarantee_bits_per_vertex == float("inf")
 
 
