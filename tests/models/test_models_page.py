@@ -8,6 +8,9 @@ import pytest
 from click.testing import CliRunner
 
 from ebz.cli.model import model
+from ebz.codec import connectivity
+from ebz.codec.models.load import load
+from ebz.codec.sample import random_triangulation
 
 PAGE = Path(__file__).parents[2] / "docs" / "models.md"
 # Another version of the solver may return other, equally good potentials.
@@ -41,3 +44,13 @@ def test_the_page_shows_what_the_command_prints(
         assert actual == (
             pytest.approx(expected, abs=TOLERANCE) if isinstance(expected, float) else expected
         )
+
+
+def test_the_table_of_random_triangulations() -> None:
+    """Its first row; `python -m tests.bench.models` prints all of it."""
+    cells = re.search(r"^\| 1 \| (\S+) \| (\S+) \|", PAGE.read_text(), re.MULTILINE)
+    assert cells
+    faces = random_triangulation(100_000, 1).faces
+    for name, shown in zip(("loop-60", "stack"), cells.groups(), strict=True):
+        word = connectivity.encode(faces, 100_000, [load(name)])[0]
+        assert f"{8 * len(word.word) / 100_000:.4f}" == shown
