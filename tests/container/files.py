@@ -7,6 +7,7 @@ import numpy as np
 import ebz
 from ebz.codec.sample import glued_grid
 from tests import surgery
+from tests.data.golden import seam
 
 START = 9  # bytes of magic and version
 Chunks = list[tuple[bytes, bytes]]
@@ -58,6 +59,7 @@ def files() -> dict[str, bytes]:
         "float": ebz.compress(ebz.Mesh(np.sqrt(random.astype(float)), finite.faces)),
         "automaton": ebz.compress(triangle, model="loop-60", embed_model=True),
         "stack": ebz.compress(triangle, model="stack", embed_model=True),
+        "seam": ebz.compress(seam()),
         "empty": ebz.compress(ebz.Mesh([], [])),
     }
 
