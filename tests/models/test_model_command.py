@@ -11,8 +11,6 @@ from ebz.codec.errors import EbzError, OptionError
 from ebz.codec.models.table import Table
 from tests.cli.shell import Shell
 
-pytest_plugins = ["tests.cli.conftest"]
-
 
 def ebz_model(*arguments: str) -> Result:
     return CliRunner().invoke(model, arguments)

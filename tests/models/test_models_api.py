@@ -12,7 +12,6 @@ from ebz.codec.models import guarantee
 from ebz.codec.models.table import C, E
 from tests.cli.shell import Shell
 
-pytest_plugins = ["tests.cli.conftest"]
 TETRAHEDRON = ebz.Mesh(np.eye(4)[:, :3], np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]))
 
 
