@@ -14,7 +14,7 @@ from ebz.codec.sample import random_triangulation
 from ebz.formats import container
 from tests import surgery
 from tests.meshes import face_lists, meshes, surfaces
-from tests.oracles import integers, reverse
+from tests.oracles import integers, reverse, specials
 from tests.oracles.range_coder import Decoder, Encoder
 
 tables = st.sampled_from(table_names())
@@ -90,15 +90,14 @@ def check_file(mesh: ebz.Mesh, model: str | None) -> None:
     encoded = container.read(memoryview(data), memory_limit=1 << 30)
     counts, streams = encoded.counts, encoded.streams
     decoded = pipeline.decode(encoded)
-    specials, at = {}, -1
-    for gap, ahead in integers.decode(streams.special_integers, counts.n_specials, 2):
-        at += gap + 1
-        specials[at] = ahead + 2 * at + 2
     word = "".join("CLRSE"[symbol] for symbol in decoded.word.symbols)
+    pairs = decoded.word.specials.tolist()
+    met = dict(zip(pairs[0::2], pairs[1::2], strict=True))
     if isinstance(encoded.model, AnyTable):
-        found = reverse.decode_word(streams.word, len(word), set(specials), encoded.model)
+        assert met == specials.decode(streams.special_integers, counts.n_specials, len(word))
+        found = reverse.decode_word(streams.word, len(word), set(met), encoded.model)
         assert word == found
-    opposite = reverse.opposites(word, specials, counts.n_closed, counts.n_single)
+    opposite = reverse.opposites(word, met, counts.n_closed, counts.n_single)
     vertex = reverse.fans(opposite)
     assert opposite == decoded.surface.opposite.tolist()
     assert vertex == decoded.surface.piece_vertex.tolist()

@@ -37,11 +37,12 @@ class Walk:
 
 
 def encode_word(word: str, special: set[int], table: AnyTable) -> bytes:
-    """The word from the last symbol to the first; `special` are the positions of its special S."""
+    """The word from the last symbol to the first, without its special S at `special`."""
     coder, walk = Encoder(), Walk(table)
     for position in reversed(range(len(word))):
         symbol, frequencies = "CLRSE".index(word[position]), walk.frequencies()
-        coder.symbol(sum(frequencies[:symbol]), frequencies[symbol], 16)
+        if position not in special:
+            coder.symbol(sum(frequencies[:symbol]), frequencies[symbol], 16)
         walk.advance(symbol, position in special)
     return coder.finish()
 
@@ -51,7 +52,8 @@ def decode_word(data: bytes, n_symbols: int, special: set[int], table: AnyTable)
     coder, walk, word = Decoder(data), Walk(table), ""
     for position in reversed(range(n_symbols)):
         frequencies = walk.frequencies()
-        symbol = coder.symbol([sum(frequencies[:i]) for i in range(6)], 16)
+        starts = [sum(frequencies[:i]) for i in range(6)]
+        symbol = "CLRSE".index("S") if position in special else coder.symbol(starts, 16)
         word = "CLRSE"[symbol] + word
         walk.advance(symbol, position in special)
     return word
