@@ -88,7 +88,7 @@ def test_the_tetrahedron_exactly():
 def test_valence_entropy_is_that_of_the_valences():
     """A wheel of five spokes: one vertex with five edges, five with three."""
     mesh = ebz.Mesh(np.arange(18.0).reshape(-1, 3), [(0, i, i % 5 + 1) for i in range(1, 6)])
-    encoded = pipeline.encode(mesh)
+    encoded, _ = pipeline.encode(mesh)
     surface = pipeline.decode(encoded).surface
     expected = -(np.log2(1 / 6) / 6 + np.log2(5 / 6) * 5 / 6)
     assert statistics.valence_entropy(surface) == pytest.approx(expected)
