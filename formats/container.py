@@ -181,6 +181,8 @@ def _header(encoded: EncodedMesh, model: int) -> bytes:
 def _check_header(header: Any) -> None:
     if header.itemsize not in layout.DTYPE_SIZES:
         raise CorruptError(f"coordinates of {header.itemsize} bytes")
+    if header.model not in tables.NUMBERS:
+        raise VersionError(f"header: unknown model {header.model}")
     if header.lattice >= len(layout.LATTICE_KINDS):
         raise VersionError(f"header: unknown lattice {header.lattice}")
     for name, count in header.items():

@@ -14,6 +14,9 @@ from ebz.codec.models.table import TOTAL, Table
 from ebz.formats import layout
 from ebz.formats.chunks import Chunk
 
+# What a header's model may be.
+NUMBERS = {layout.INLINE_MODEL, *layout.MODELS, *layout.ADAPTIVE_MODELS}
+
 
 def number_of(model: WordModel) -> int:
     """The number of a built-in model, INLINE_MODEL where it is a table that is none of them."""
@@ -50,8 +53,6 @@ def read(number: int, chunk: Chunk | None) -> WordModel:
     if number in layout.ADAPTIVE_MODELS:
         return layout.ADAPTIVE_MODELS[number]
     if number != layout.INLINE_MODEL:
-        if number not in layout.MODELS:
-            raise VersionError(f"header: unknown model {number}")
         return load(layout.MODELS[number])
     assert chunk is not None, "the container checks that it is there"
     with corrupt_at(chunk.where):

@@ -1,4 +1,4 @@
-// Made by codec/training/word_priors.cpp; not to be changed by hand.
+// Made by tests/training/word_priors.cpp; not to be changed by hand.
 #pragma once
 
 #include "word_prior.hpp"

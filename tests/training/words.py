@@ -1,4 +1,4 @@
-"""Writes the words from which priors are learnt: `python codec/training/words.py FOLDER [MESH]...`.
+"""Writes the words from which priors are learnt: `python tests/training/words.py FOLDER [MESH]...`.
 
 Generated meshes of common kinds, and any mesh files given.  A word file holds five int32 (symbols,
 closed components, single triangles, special S, vertices), the symbols, and int64 pairs (position,

@@ -1,4 +1,4 @@
-// Learns word_priors.hpp from word files: see codec/training/README.md.
+// Learns word_priors.hpp from word files: see tests/training/README.md.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -211,7 +211,7 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i) words.emplace_back(argv[i]);
     const bool with_weights = std::strcmp(argv[1], "weights") == 0;
     Training::count(words);
-    std::printf("// Made by codec/training/word_priors.cpp; not to be changed by hand.\n#pragma once\n\n");
+    std::printf("// Made by tests/training/word_priors.cpp; not to be changed by hand.\n#pragma once\n\n");
     std::printf("#include \"word_prior.hpp\"\n\nnamespace ebz {\n\n// clang-format off\n");
     print(Training::degrees);
     print("fast_prior", with_weights ? Training::weigh<FastContexts>(words, 3) : FastContexts::prior);
