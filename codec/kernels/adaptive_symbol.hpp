@@ -1,4 +1,4 @@
-// Adaptive frequencies of 16 symbols: cumulative frequencies that move towards each symbol seen.
+// Adaptive frequencies of 8 or 16 symbols: cumulative frequencies that move towards each symbol seen.
 //
 // Reference: F. Giesen, "Models for adaptive arithmetic coding", 2015.
 #pragma once
@@ -17,14 +17,22 @@ struct Share {
     uint16_t start, frequency;
 };
 
+template <int n>
 class alignas(16) AdaptiveSymbol {
+    static_assert(n == 8 || n == 16);
+
 public:
     static constexpr int total_bits = 15;
-    static constexpr int n_symbols = 16;
+    static constexpr int n_symbols = n;
     static constexpr int least_frequency = 8;  // of 2^15
 
-    constexpr AdaptiveSymbol() {
-        for (int i = 0; i <= n_symbols; ++i) starts_[i] = static_cast<uint16_t>(i * (total / n_symbols));
+    // The first n_used symbols are equally likely, the others as rare as can be.
+    constexpr explicit AdaptiveSymbol(int n_used = n) {
+        const int share = (total - (n - n_used) * least_frequency) / n_used;
+        for (int i = 0; i <= n; ++i) {
+            const int start = i < n_used ? i * share : total - (n - i) * least_frequency;
+            starts_[i] = static_cast<uint16_t>(start);
+        }
     }
 
     Share share(uint32_t symbol) const {
@@ -36,8 +44,9 @@ public:
 #ifdef __SSE2__
         const __m128i at = _mm_set1_epi16(static_cast<int16_t>(slot));
         const auto* row = reinterpret_cast<const __m128i*>(starts_.data());
-        const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(_mm_load_si128(row), at), _mm_cmpgt_epi16(_mm_load_si128(row + 1), at));
-        return static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1u << n_symbols)) - 1;
+        const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(_mm_load_si128(row), at),
+                                              _mm_cmpgt_epi16(_mm_load_si128(row + n / 8 - 1), at));
+        return static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1u << n)) - 1;
 #else
         uint32_t symbol = 0;
         while (symbol + 1 < n_symbols && starts_[symbol + 1] <= slot) ++symbol;
@@ -54,7 +63,7 @@ public:
         auto* row = reinterpret_cast<__m128i*>(starts_.data());
         const auto* target = reinterpret_cast<const __m128i*>(targets[symbol].data());
         const __m128i shift = _mm_cvtsi32_si128(rate);
-        for (int i = 0; i < 2; ++i) {
+        for (int i = 0; i < n / 8; ++i) {
             const __m128i old = _mm_load_si128(row + i);
             _mm_store_si128(row + i, _mm_add_epi16(old, _mm_sra_epi16(_mm_sub_epi16(_mm_load_si128(target + i), old), shift)));
         }
@@ -80,7 +89,7 @@ private:
     }();
     static constexpr auto rates = [] {
         std::array<uint8_t, max_seen + 1> table{};
-        for (int n = 0; n <= max_seen; ++n) table[n] = static_cast<uint8_t>(n < 6 ? 3 : n < 20 ? 4 : n < max_seen ? 5 : 6);
+        for (int i = 0; i <= max_seen; ++i) table[i] = static_cast<uint8_t>(i < 6 ? 3 : i < 20 ? 4 : i < max_seen ? 5 : 6);
         return table;
     }();
 

@@ -27,9 +27,10 @@ class Encoder {
 public:
     static constexpr bool encoding = true;
 
-    uint32_t symbol(size_t lane, AdaptiveSymbol& model, uint32_t symbol) {
+    template <int n>
+    uint32_t symbol(size_t lane, AdaptiveSymbol<n>& model, uint32_t symbol) {
         const Share share = model.share(symbol);
-        steps_.push_back({share.start, share.frequency, AdaptiveSymbol::total_bits, static_cast<uint16_t>(lane)});
+        steps_.push_back({share.start, share.frequency, model.total_bits, static_cast<uint16_t>(lane)});
         model.learn(symbol);
         return symbol;
     }
@@ -40,8 +41,9 @@ public:
         return value;
     }
 
-    // The bytes.  A stream of b bytes holds less than 8 b bits of information.
+    // The bytes, one if nothing was coded.  A stream of b bytes holds less than 8 b bits of information.
     std::vector<uint8_t> finish() {
+        if (steps_.empty()) return {0};
         std::array<uint64_t, n_lanes> states;
         states.fill(least);
         std::vector<uint32_t> words;
@@ -91,12 +93,13 @@ public:
         last_ = bytes_.size() - 4;
     }
 
-    uint32_t symbol(size_t lane, AdaptiveSymbol& model, uint32_t) {
+    template <int n>
+    uint32_t symbol(size_t lane, AdaptiveSymbol<n>& model, uint32_t) {
         uint64_t& state = states_[lane];
-        const auto slot = static_cast<uint32_t>(state) & ((1u << AdaptiveSymbol::total_bits) - 1);
+        const auto slot = static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
         const uint32_t symbol = model.find(slot);
         const Share share = model.share(symbol);
-        state = share.frequency * (state >> AdaptiveSymbol::total_bits) + slot - share.start;
+        state = share.frequency * (state >> model.total_bits) + slot - share.start;
         refill(state);
         model.learn(symbol);
         return symbol;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edgebreaker.hpp"
+#include "errors.hpp"
 
 namespace ebz {
 
@@ -19,6 +20,7 @@ struct LoopEdge {
 };
 
 inline constexpr uint8_t max_degree = 15;
+inline constexpr LoopEdge new_vertex{none, none, 2, 8};
 
 // Builds the triangles from the last to the first.  Whatever the symbols are, indices stay in range
 // and opposite stays an involution: what cannot be done throws Corrupt.
@@ -78,5 +80,89 @@ private:
     std::vector<LoopEdge> loops_;  // for half-edges without an opposite
     std::vector<Active> stack_;
 };
+
+// Once per triangle: inline.
+inline void Reverse::apply(Symbol symbol, int64_t meets) {
+    --triangle_;
+    switch (symbol) {
+        case C: close(); break;
+        case L: left(); break;
+        case R: right(); break;
+        case S: split(meets == none ? none : half_edge_met(meets)); break;
+        default: end();
+    }
+    stack_.back() = {3 * triangle_, triangle_ - n_closed_};
+}
+
+inline Index Reverse::top() const {
+    if (stack_.empty()) throw Corrupt("the word needs a loop where there is none");
+    return stack_.back().gate;
+}
+
+inline void Reverse::match(Index h, Index g) {
+    opposite_[h] = g;
+    opposite_[g] = h;
+}
+
+inline void Reverse::link(Index h, Index g) {
+    loops_[h].next = g;
+    loops_[g].previous = h;
+}
+
+// h starts at a vertex that is known from another half-edge, and that gets new edges.
+inline void Reverse::start(Index h, LoopEdge vertex, uint8_t n_new_edges) {
+    loops_[h].degree = std::min<uint8_t>(vertex.degree + n_new_edges, max_degree);
+    loops_[h].excess = vertex.excess;
+}
+
+inline void Reverse::add_excess(Index h, int excess) {
+    loops_[h].excess = static_cast<uint8_t>(std::clamp(loops_[h].excess + excess, 0, 15));
+}
+
+inline void Reverse::end() {
+    const Index gate = 3 * triangle_;
+    for (Index h = gate; h < gate + 3; ++h) {
+        link(h, next(h));
+        start(h, new_vertex, 0);
+    }
+    stack_.push_back({});
+}
+
+inline void Reverse::right() {
+    const Index g = top(), gate = 3 * triangle_;
+    start(gate, loops_[g], 1);
+    start(gate + 1, new_vertex, 0);
+    add_edge(next_of(g));
+    link(previous_of(g), gate);
+    link(gate, gate + 1);
+    link(gate + 1, next_of(g));
+    match(gate + 2, g);
+}
+
+inline void Reverse::left() {
+    const Index g = top(), gate = 3 * triangle_;
+    start(gate + 2, loops_[g], 1);
+    start(gate, new_vertex, 0);
+    add_edge(next_of(g));
+    link(previous_of(g), gate + 2);
+    link(gate + 2, gate);
+    link(gate, next_of(g));
+    match(gate + 1, g);
+}
+
+inline void Reverse::close() {
+    const Index g = top(), gate = 3 * triangle_;
+    const Index met = previous_of(g), before = previous_of(met);
+    if (before == g || previous_of(before) == g) throw Corrupt("the word closes a loop of three edges");
+    const int excess = loops_[g].degree - 6;
+    start(gate, loops_[met], 1);
+    add_edge(next_of(g));
+    add_excess(gate, excess);
+    add_excess(next_of(g), excess);
+    link(before, gate);
+    link(gate, next_of(g));
+    match(gate + 1, g);
+    match(gate + 2, met);
+}
 
 }  // namespace ebz

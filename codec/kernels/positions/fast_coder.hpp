@@ -36,7 +36,7 @@ public:
     template <class Coder>
     int64_t code(Coder& coder, size_t axis, size_t kind, uint32_t expected, int64_t e) {
         const int shift = expected > centre ? std::min(static_cast<int>(expected - centre) / 2, max_shift) : 0;
-        AdaptiveSymbol& row = rows_[axis][kind][std::min<size_t>(expected, n_expected - 1)];
+        AdaptiveSymbol<16>& row = rows_[axis][kind][std::min<size_t>(expected, n_expected - 1)];
         const uint64_t a = magnitude(e);
         const bool negative = e < 0;
         const uint32_t token = coder.symbol(axis, row, std::min(half_octave(a >> shift), escape));
@@ -77,7 +77,7 @@ private:
         return static_cast<int64_t>(decoded >> 1 ^ (0 - (decoded & 1)));
     }
 
-    std::array<std::array<std::array<AdaptiveSymbol, n_expected>, n_kinds>, 3> rows_;
+    std::array<std::array<std::array<AdaptiveSymbol<16>, n_expected>, n_kinds>, 3> rows_;
 };
 
 template <class Coder>
