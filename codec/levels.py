@@ -35,6 +35,8 @@ def position_method(level: int) -> Method:
     """How positions are coded."""
     if level < 3:
         return Method.FAST
+    if level < 6:
+        return Method.MEDIUM
     return Method.LIGHT if level < 7 else Method.STRONG
 
 

@@ -20,6 +20,7 @@ class Method(enum.IntEnum):
     STRONG = 2
     FLOAT32 = 3
     FLOAT64 = 4
+    MEDIUM = 5
 
 
 # Predictions in floats, for a lattice of floats.

@@ -35,6 +35,21 @@ public:
         return symbol;
     }
 
+    // One that learns by itself.
+    template <int n>
+    uint32_t fixed(size_t lane, const AdaptiveSymbol<n>& model, uint32_t symbol) {
+        const Share share = model.share(symbol);
+        steps_.push_back({share.start, share.frequency, model.total_bits, static_cast<uint16_t>(lane)});
+        return symbol;
+    }
+
+    // p1: of 2^15, neither 0 nor all.
+    bool bit(size_t lane, bool bit, uint32_t p1) {
+        const uint32_t p0 = 32768 - p1;
+        steps_.push_back({static_cast<uint16_t>(bit ? p0 : 0), static_cast<uint16_t>(bit ? p1 : p0), 15, static_cast<uint16_t>(lane)});
+        return bit;
+    }
+
     // The low n_bits <= max_raw of `value`, which has no others.
     uint32_t raw(size_t lane, uint32_t value, int n_bits) {
         steps_.push_back({static_cast<uint16_t>(value), 1, static_cast<uint16_t>(n_bits), static_cast<uint16_t>(lane)});
@@ -103,6 +118,26 @@ public:
         refill(state);
         model.learn(symbol);
         return symbol;
+    }
+
+    template <int n>
+    uint32_t fixed(size_t lane, const AdaptiveSymbol<n>& model, uint32_t) {
+        uint64_t& state = states_[lane];
+        const auto slot = static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
+        const uint32_t symbol = model.find(slot);
+        const Share share = model.share(symbol);
+        state = share.frequency * (state >> model.total_bits) + slot - share.start;
+        refill(state);
+        return symbol;
+    }
+
+    bool bit(size_t lane, bool, uint32_t p1) {
+        uint64_t& state = states_[lane];
+        const uint32_t p0 = 32768 - p1, slot = static_cast<uint32_t>(state) & 32767;
+        const bool bit = slot >= p0;
+        state = (bit ? p1 : p0) * (state >> 15) + slot - (bit ? p0 : 0);
+        refill(state);
+        return bit;
     }
 
     uint32_t raw(size_t lane, uint32_t, int n_bits) {

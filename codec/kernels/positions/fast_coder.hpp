@@ -16,17 +16,11 @@
 
 #include "../adaptive_symbol.hpp"
 #include "../ans.hpp"
+#include "residual_digits.hpp"
 #include "surface.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
-
-// Half-octaves: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, ...
-inline uint32_t half_octave(uint64_t a) {
-    if (a < 2) return static_cast<uint32_t>(a);
-    const int top = 63 - std::countl_zero(a);
-    return 2 * static_cast<uint32_t>(top) + (static_cast<uint32_t>(a >> (top - 1)) & 1);
-}
 
 class FastModel {
 public:
@@ -38,44 +32,17 @@ public:
         const int shift = expected > centre ? std::min(static_cast<int>(expected - centre) / 2, max_shift) : 0;
         AdaptiveSymbol<16>& row = rows_[axis][kind][std::min<size_t>(expected, n_expected - 1)];
         const uint64_t a = magnitude(e);
-        const bool negative = e < 0;
-        const uint32_t token = coder.symbol(axis, row, std::min(half_octave(a >> shift), escape));
-        if (token == escape) return code_large(coder, axis, e);
-        const int n_digits = (token < 4 ? 0 : static_cast<int>(token) / 2 - 1) + shift;
-        const uint64_t leading = token < 4 ? token : 2 + (token & 1);
+        const uint32_t token = coder.symbol(axis, row, residual_token(a, shift));
         if (token == 0 && shift == 0) return 0;
-        const uint64_t digits = (a & ((uint64_t{1} << n_digits) - 1)) << 1 | negative;
-        const uint64_t decoded = code_digits(coder, axis, digits, n_digits + 1);
-        return with_sign(leading << n_digits | decoded >> 1, decoded & 1);
+        if (token == escape_token) return code_large(coder, axis, e);
+        // The sign is the lowest digit.
+        const uint64_t decoded = code_low_digits(coder, axis, token, shift, a, e < 0);
+        return with_sign(decoded >> 1, decoded & 1);
     }
 
 private:
-    static constexpr uint32_t escape = 15, centre = 8;
-    static constexpr int max_shift = 50;  // digits and all stay below 2^64
+    static constexpr uint32_t centre = 8;
     static constexpr size_t n_expected = 32;
-
-    static int64_t with_sign(uint64_t a, uint64_t negative) { return static_cast<int64_t>((a ^ (0 - negative)) + negative); }
-
-    template <class Coder>
-    static uint64_t code_digits(Coder& coder, size_t axis, uint64_t digits, int n_digits) {
-        if (n_digits <= ans::max_raw) return coder.raw(axis, static_cast<uint32_t>(digits), n_digits);
-        uint64_t value = 0;
-        while (n_digits > 0) {
-            const int n = std::min(n_digits, ans::max_raw);
-            n_digits -= n;
-            value = value << n | coder.raw(axis, static_cast<uint32_t>(digits >> n_digits) & ((1u << n) - 1), n);
-        }
-        return value;
-    }
-
-    template <class Coder>
-    static int64_t code_large(Coder& coder, size_t axis, int64_t e) {
-        const uint64_t zigzag = static_cast<uint64_t>(e) << 1 ^ static_cast<uint64_t>(e >> 63);
-        const auto n_digits = static_cast<int>(coder.raw(axis, static_cast<uint32_t>(63 - std::countl_zero(zigzag | 1)), 6));
-        const uint64_t digits = zigzag & ((uint64_t{1} << n_digits) - 1);
-        const uint64_t decoded = uint64_t{1} << n_digits | code_digits(coder, axis, digits, n_digits);
-        return static_cast<int64_t>(decoded >> 1 ^ (0 - (decoded & 1)));
-    }
 
     std::array<std::array<std::array<AdaptiveSymbol<16>, n_expected>, n_kinds>, 3> rows_;
 };

@@ -1,4 +1,4 @@
-// Codes all vertices in order of traversal, from the mean of their parallelograms: effort default_.
+// Codes all vertices in order of traversal, from the mean of their parallelograms.
 #pragma once
 
 #include <array>
@@ -11,20 +11,21 @@
 #include "surface.hpp"
 #include "light_model.hpp"
 #include "light_predictor.hpp"
+#include "medium_model.hpp"
 #include "seed_model.hpp"
 #include "traversal.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
 
-template <class Coder>
-void code_positions_light(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+template <class Model, class Seeds, class Coder>
+void code_in_traversal(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
     const CornersOfVertices corners(mesh);
     Traversal traversal(mesh, corners);
     LightPredictor predictor(mesh, corners, traversal, xyz);
-    const auto model = std::make_unique<LightModel>();
-    SeedModel seeds;
-    LightModel::Context x;
+    const auto model = std::make_unique<Model>();
+    Seeds seeds;
+    LightContext x;
     for (int32_t v; (v = traversal.next_vertex()) >= 0;) {
         const auto position = xyz.subspan(3 * static_cast<size_t>(v), 3);
         if (!predictor.predict(v)) {
@@ -41,6 +42,16 @@ void code_positions_light(Coder& coder, const Surface& mesh, std::span<int64_t> 
         }
         predictor.learn(v);
     }
+}
+
+template <class Coder>
+void code_positions_light(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+    code_in_traversal<LightModel, SeedModel>(coder, mesh, xyz);
+}
+
+template <class Coder>
+void code_positions_medium(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+    code_in_traversal<MediumModel, MediumSeeds>(coder, mesh, xyz);
 }
 
 }  // namespace ebz::positions

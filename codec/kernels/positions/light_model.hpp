@@ -12,14 +12,15 @@
 
 #include "counter.hpp"
 #include "lanes.hpp"
+#include "light_context.hpp"
 #include "float_logistic.hpp"
 
 namespace ebz::positions {
 
 class LightModel {
 public:
-    static constexpr size_t n_contexts = 4, n_slots = 33, n_values = 1024, n_value_contexts = 9;
-    static constexpr int max_class = 44;
+    using Context = LightContext;
+    static constexpr size_t n_slots = 33;
     using Slots = std::array<CounterState, n_slots>;
 
     LightModel() {
@@ -27,13 +28,6 @@ public:
             for (auto& s : slots) s.fill(counter::unseen);
         weights_.fill(splat(0.35f));
     }
-
-    struct Context {
-        std::array<size_t, n_contexts> context;  // < n_values
-        int shift, expected_class;
-        int64_t value;         // a residual that would repeat a neighbour's value
-        size_t value_context;  // < n_value_contexts
-    };
 
     template <class Coder>
     int64_t code(Coder& coder, const Context& x, int64_t e) {
@@ -51,6 +45,7 @@ public:
     }
 
 private:
+    static constexpr size_t n_contexts = Context::n_contexts;
     static constexpr uint32_t min_hits = 4096;  // of 65536
 
     template <class Coder>
@@ -85,7 +80,7 @@ private:
         };
         int k = x.expected_class;
         if (above(k)) {
-            while (++k < max_class && above(k)) {}
+            while (++k < Context::max_class && above(k)) {}
             return k;
         }
         while (k > 0 && !above(k - 1)) --k;
@@ -110,9 +105,9 @@ private:
 
     static constexpr float learning_rate = 0.01f;
 
-    std::array<std::array<Slots, n_values>, n_contexts> slots_;
+    std::array<std::array<Slots, Context::n_values>, n_contexts> slots_;
     std::array<Lanes, n_slots> weights_;
-    std::array<Counter, n_value_contexts> hits_{};
+    std::array<Counter, Context::n_value_contexts> hits_{};
     std::array<Slots*, n_contexts> active_{};
 };
 

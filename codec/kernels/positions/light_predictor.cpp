@@ -75,7 +75,7 @@ void LightPredictor::order_axes() {
     swap_if(0, 1);
 }
 
-void LightPredictor::expect(size_t turn, LightModel::Context& x) {
+void LightPredictor::expect(size_t turn, LightContext& x) {
     const size_t d = axes_[turn];
     const float size = n_sizes_ > 0 ? static_cast<float>(size_[d]) / static_cast<float>(n_sizes_) : 4.0f;
     const float spread = n_ > 1 ? static_cast<float>(std::min(spread_[d], 1e15)) / static_cast<float>(n_ - 1) : size;
@@ -83,7 +83,7 @@ void LightPredictor::expect(size_t turn, LightModel::Context& x) {
     const int level = half_octaves(scale);
     if (turn == 2) slide(turn, level > 8);
     x.shift = std::max(0, (level - 16) / 2);
-    x.expected_class = std::clamp(level / 2 - 2, 0, LightModel::max_class - 1);
+    x.expected_class = std::clamp(level / 2 - 2, 0, LightContext::max_class - 1);
     const float earlier = turn == 0 ? 0 : static_cast<float>(total_) / static_cast<float>(turn);
     const int before = turn == 0 ? 0 : std::clamp(half_octaves(earlier) - level + 6, 0, 11);
     const int relative = level - 2 * x.shift;  // <= 17
@@ -123,7 +123,7 @@ void LightPredictor::slide(size_t turn, bool far) {
 }
 
 // The value of the neighbour that agrees most on earlier axes, the nearest if several do.
-void LightPredictor::expect_value(size_t turn, LightModel::Context& x) {
+void LightPredictor::expect_value(size_t turn, LightContext& x) {
     const size_t d = axes_[turn];
     uint32_t most = 0;
     uint64_t nearest = ~uint64_t{0};

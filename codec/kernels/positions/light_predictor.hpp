@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "surface.hpp"
-#include "light_model.hpp"
+#include "light_context.hpp"
 #include "traversal.hpp"
 #include "wrapping.hpp"
 
@@ -27,7 +27,7 @@ public:
 
     size_t axis(size_t turn) const { return axes_[turn]; }
     int64_t base(size_t d) const { return wrapping_sum(origin_[d], base_[d]); }
-    void expect(size_t turn, LightModel::Context& x);
+    void expect(size_t turn, LightContext& x);
     void reveal(size_t turn, int64_t e);
     void learn(int32_t v);
 
@@ -49,7 +49,7 @@ private:
     void add_neighbour(int32_t u);
     void order_axes();
     void slide(size_t turn, bool far);
-    void expect_value(size_t turn, LightModel::Context& x);
+    void expect_value(size_t turn, LightContext& x);
 
     const Surface& mesh_;
     const CornersOfVertices& corners_;

@@ -21,6 +21,7 @@ enum class Method : uint8_t {
     strong,  // every model there is
     float32_bits,  // values are floats by their order (spaces.hpp), predictions are made in floats
     float64_bits,
+    medium,  // as light, but one symbol per coordinate
 };
 
 // values: 3 per vertex; magnitudes up to 2^40 but for the float methods.
