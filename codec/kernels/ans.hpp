@@ -35,7 +35,7 @@ public:
         return symbol;
     }
 
-    // One that learns by itself.
+    // Of a model that is not to learn.
     template <int n>
     uint32_t fixed(size_t lane, const AdaptiveSymbol<n>& model, uint32_t symbol) {
         const Share share = model.share(symbol);

@@ -57,14 +57,11 @@ public:
         const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
         for (int32_t t = 0; t < n_faces; ++t) {
             const int32_t gate = 3 * t;
-            if (vertex(gate + 2) >= known_ && vertex(gate) < known_ && vertex(gate + 1) < known_ && opposite(gate) >= 0) {
-                tip(gate);
-                continue;
-            }
+            if (vertex(gate + 2) >= known_ && tip(gate)) continue;
             for (int32_t c = gate; c < gate + 3; ++c)
-                if (vertex(c) >= known_) first_of_component(c);
+                if (vertex(c) >= known_) from_latest(c == gate ? 2 : 3);
         }
-        while (known_ < n_vertices_) isolated();
+        while (known_ < n_vertices_) from_latest(2);
     }
 
 private:
@@ -74,8 +71,11 @@ private:
     int32_t opposite(int32_t c) const { return mesh_.opposite[static_cast<size_t>(c)]; }
     const int64_t* position(int32_t v) const { return xyz_ + 3 * static_cast<size_t>(v); }
 
-    void tip(int32_t gate) {
+    // False if the face behind the gate is not known: the first of a component has none.
+    bool tip(int32_t gate) {
+        if (opposite(gate) < 0) return false;
         const int32_t a = vertex(gate), b = vertex(gate + 1), o = vertex(previous(opposite(gate)));
+        if (a >= known_ || b >= known_ || o >= known_) return false;
         std::array<uint64_t, 3> base;
         for (size_t d = 0; d < 3; ++d) base[d] = sum(a, b, o, d);
         size_t kind = 0;
@@ -88,6 +88,7 @@ private:
             }
         }
         code(kind, base, sizes_[static_cast<size_t>(a)], sizes_[static_cast<size_t>(b)]);
+        return true;
     }
 
     // The apex of the second parallelogram, across from the tip: behind the face on the right (which has the
@@ -107,12 +108,7 @@ private:
         return static_cast<uint64_t>(position(a)[d]) + static_cast<uint64_t>(position(b)[d]) - static_cast<uint64_t>(position(o)[d]);
     }
 
-    void first_of_component(int32_t c) {
-        from_latest(c % 3 == 0 ? 2 : 3);
-    }
-
-    void isolated() { from_latest(2); }
-
+    // Without a parallelogram: from the vertex coded before, which is a neighbour for kind 3.
     void from_latest(size_t kind) {
         std::array<uint64_t, 3> base{};
         for (size_t d = 0; known_ > 0 && d < 3; ++d) base[d] = static_cast<uint64_t>(position(known_ - 1)[d]);
