@@ -59,6 +59,7 @@ def files() -> dict[str, bytes]:
         "float": ebz.compress(ebz.Mesh(np.sqrt(random.astype(float)), finite.faces)),
         "automaton": ebz.compress(triangle, model="loop-60", embed_model=True),
         "stack": ebz.compress(triangle, model="stack", embed_model=True),
+        "order": ebz.compress(plain, keep_order=True),
         "seam": ebz.compress(seam()),
         "empty": ebz.compress(ebz.Mesh([], [])),
     }

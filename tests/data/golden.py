@@ -64,6 +64,7 @@ def cases() -> dict[str, tuple[ebz.Mesh, dict[str, Any]]]:
         "everything": (_everything(), {}),
         "seam": (seam(), {}),
         "float64": (_curved(200), {}),
+        "kept_order": (_everything(), {"keep_order": True}),
         "bits_14": (ball, {"bits": 14}),
         "max_error": (_curved(200), {"max_error": 1e-3}),
         "automaton": (random, {"model": "loop-60"}),
