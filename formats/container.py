@@ -188,7 +188,7 @@ def _check_header(header: Any) -> None:
     for name, count in header.items():
         if name.startswith("n_") and count >= MAX_COUNT:
             raise CorruptError(f"{name} is {count}, past the limit of 2^63")
-    if header.n_vertices >= MAX_VERTICES:
+    if header.n_vertices > MAX_VERTICES:
         raise CorruptError(f"{header.n_vertices} vertices, past the limit of 2^31 - 1")
     if header.n_symbols + header.n_closed > MAX_FACES:
         raise CorruptError(f"more faces than the limit of {MAX_FACES}")

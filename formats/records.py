@@ -11,6 +11,9 @@ from ebz.codec.mesh import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
 from ebz.formats import layout
 from ebz.formats.chunks import Chunk
 
+# Longer floats exist on some machines only.
+MAX_ITEMSIZE = 8
+
 
 def attribute(array: EncodedArray) -> bytes:
     """The payload of an attribute chunk."""
@@ -44,7 +47,7 @@ def parse_attribute(chunk: Chunk) -> EncodedArray:
 def _parse_dtype(parsed: Any) -> np.dtype[Any]:
     kind = parsed.kind.decode("latin-1")
     try:
-        if kind in NUMBERS:
+        if kind in NUMBERS and parsed.itemsize <= MAX_ITEMSIZE:
             return np.dtype(f"{kind}{parsed.itemsize}")
     except TypeError:
         pass

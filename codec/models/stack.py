@@ -159,6 +159,8 @@ class StackTable:
         if len(extents) != 4 or not 0 < min(extents) <= max(extents) <= MAX_EXTENT:
             raise OptionError(f"model table: top and step of shape {extents}")
         n, columns = len(self.frequencies), self.frequencies.shape[1:]
+        if self.conflict_max < 1:
+            raise OptionError("model table: top has no column for the conflict that L leaves")
         if columns != (len(SYMBOLS),) or not 0 < n <= MAX_ROWS or n % self.n_classes:
             raise OptionError(f"model table: frequencies of shape {self.frequencies.shape}")
         if min(self.length_max, self.length_cap) < self.conflict_max + 2:
