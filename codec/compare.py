@@ -245,7 +245,9 @@ def _as_stored(vertices: npt.NDArray[Any], lattice: Lattice) -> npt.NDArray[Any]
 def _errors(got: npt.NDArray[Any], source: npt.NDArray[Any]) -> dict[str, float]:
     error = _distances(got, source)
     largest = float(error.max(initial=0.0))
-    rms = float(np.sqrt((error**2).sum() / len(error))) if len(error) else 0.0
+    # Scaled, so that no square overflows.
+    scaled = error / largest if np.isfinite(largest) and largest > 0 else np.zeros_like(error)
+    rms = largest * float(np.sqrt((scaled**2).sum() / len(error))) if len(error) else 0.0
     return {"largest_error": largest, "rms_error": rms}
 
 

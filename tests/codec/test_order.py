@@ -108,7 +108,7 @@ def test_first_use_tells_the_vertices_from_the_faces():
 def test_the_order_of_a_decoded_mesh_costs_a_few_bytes(mesh):
     decoded = ebz.decompress(ebz.compress(mesh))
     data = ebz.compress(decoded, keep_order=True)
-    assert order_bytes(data) <= 3 * 7 + len(mesh.faces) / 4
+    assert order_bytes(data) <= 3 * 8 + len(mesh.faces) / 4
 
 
 @settings(max_examples=100, deadline=None)
