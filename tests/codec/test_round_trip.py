@@ -6,16 +6,31 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
+from ebz.codec.models.table import table_names
 from ebz.codec.sample import random_triangulation
 from tests import surgery
 from tests.connectivity_check import same_mesh, same_under
 from tests.meshes import attributes, meshes, rngs
 
+levels = st.integers(1, 9)
+options = st.fixed_dictionaries(
+    {"level": levels},
+    optional={
+        "model": st.none() | st.sampled_from(table_names()),
+        "embed_model": st.booleans(),
+        "keep_order": st.booleans(),
+    },
+).flatmap(
+    lambda chosen: st.sampled_from([{}, {"bits": 3}, {"bits": 12}, {"max_error": 0.01}]).map(
+        lambda lossy: chosen | lossy
+    )
+)
+
 
 @settings(max_examples=150, deadline=None)
-@given(meshes(with_attributes=True))
-def test_meshes_come_back(mesh):
-    assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh)))
+@given(meshes(with_attributes=True), levels)
+def test_meshes_come_back_at_every_level(mesh, level):
+    assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh, level=level)))
 
 
 @settings(max_examples=100, deadline=None)
@@ -45,10 +60,10 @@ def test_the_order_of_vertices_and_faces_does_not_matter(mesh, rng):
 
 
 @settings(max_examples=100, deadline=None)
-@given(meshes(with_attributes=True))
-def test_compressing_what_was_decompressed_gives_the_same_bytes(mesh):
-    data = ebz.compress(mesh)
-    assert ebz.compress(ebz.decompress(data)) == data
+@given(meshes(with_attributes=True, finite=True), options)
+def test_compressing_what_was_decompressed_gives_the_same_bytes(mesh, options):
+    data = ebz.compress(mesh, **options)
+    assert ebz.compress(ebz.decompress(data), **options) == data
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -68,9 +83,10 @@ def test_few_faces_among_very_many_vertices_come_back():
     assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh)))
 
 
-def test_a_large_random_triangulation_comes_back():
-    mesh = random_triangulation(20_000, seed=1)
-    assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh)))
+@pytest.mark.parametrize("level", [1, 3, 6, 9])
+def test_a_large_random_triangulation_comes_back(level):
+    mesh = random_triangulation(10_000, seed=level)
+    assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh, level=level)))
 
 
 NUMBERS = ["?", "u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f2", "f4", "f8", ">f4", ">i2"]
