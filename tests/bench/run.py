@@ -75,10 +75,10 @@ def _about() -> dict[str, Any]:
 
 def _meshes(folder: Path | None) -> Iterator[tuple[str, ebz.Mesh]]:
     if folder is None:
-        yield "sphere", sample.sphere(50_000, noise=0.02, seed=1)
-        yield "torus", sample.torus(20_000)
-        yield "grid", sample.grid(20_000, noise=0.01, seed=1)
-        yield "random triangulation", sample.random_triangulation(10_000, 1)
+        yield "noisy sphere", sample.sphere(50_000, noise=0.02, seed=1)
+        yield "large torus", sample.torus(20_000)
+        yield "noisy grid", sample.grid(20_000, noise=0.01, seed=1)
+        yield "random triangulation, 10000", sample.random_triangulation(10_000, 1)
     for path in sorted((folder or SAMPLES).iterdir()):
         mesh = _read(path)
         if mesh is not None and len(mesh.faces) >= MIN_FACES:
