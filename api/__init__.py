@@ -16,6 +16,7 @@ from ebz._version import __version__
 if TYPE_CHECKING:
     from ebz import models
     from ebz.codec.compare import Verification
+    from ebz.codec.elements import Element
     from ebz.codec.errors import (
         CorruptError,
         DroppedWarning,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from ebz.reports import stats, verify
 
 _HOMES = {
+    "Element": "ebz.codec.elements",
     "Mesh": "ebz.codec.mesh",
     "Permutation": "ebz.codec.order",
     "Stats": "ebz.codec.statistics",
@@ -63,6 +65,7 @@ __all__ = [
     "CorruptError",
     "DroppedWarning",
     "EbzError",
+    "Element",
     "MemoryLimitError",
     "Mesh",
     "MeshError",

@@ -6,9 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
+from ebz.codec.arrays import Attributes
 from ebz.codec.encoded import EncodedArray
-
-Attributes = dict[str, npt.NDArray[Any]]
 
 
 def encode(attributes: Attributes, order: npt.NDArray[Any]) -> list[EncodedArray]:

@@ -7,6 +7,7 @@ import numpy.typing as npt
 import xxhash
 
 from ebz.codec import metadata
+from ebz.codec.arrays import Attributes
 from ebz.codec.mesh import Mesh
 
 SIZE = 8
@@ -17,12 +18,26 @@ def digest(mesh: Mesh) -> bytes:
     state = xxhash.xxh3_64()
     _add(state, "vertices", mesh.vertices)
     _add(state, "faces", mesh.faces)
-    for name, values in mesh.vertex_attributes.items():
-        _add(state, f"vertex {name}", values)
-    for name, values in mesh.face_attributes.items():
-        _add(state, f"face {name}", values)
+    if mesh.face_offsets is not None:
+        _add(state, "face offsets", mesh.face_offsets)
+    for owner, attributes in (
+        ("vertex", mesh.vertex_attributes),
+        ("face", mesh.face_attributes),
+        ("corner", mesh.corner_attributes),
+    ):
+        _add_all(state, owner, attributes)
+    for name, element in mesh.elements.items():
+        _add(state, f"offsets of {name}", element.offsets)
+        _add(state, f"corners of {name}", element.corners)
+        _add_all(state, name, element.attributes)
+        _add_all(state, f"{name} corner", element.corner_attributes)
     state.update(metadata.encode(mesh.metadata) if mesh.metadata else b"")
     return bytes(state.digest())
+
+
+def _add_all(state: Any, owner: str, attributes: Attributes) -> None:
+    for name, values in attributes.items():
+        _add(state, f"{owner} {name}", values)
 
 
 def _add(state: Any, name: str, values: npt.NDArray[Any]) -> None:

@@ -9,10 +9,11 @@ import numpy.typing as npt
 
 from ebz.codec import attributes, connectivity, lattice, metadata, positions, welding
 from ebz.codec import order as source_order
+from ebz.codec.arrays import Attributes
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
-from ebz.codec.errors import CorruptError, corrupt_at
+from ebz.codec.errors import CorruptError, MeshError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
@@ -50,6 +51,8 @@ def encode(
     """
     report = progress or _silent
     mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
+    if not mesh.is_triangles or mesh.corner_attributes or mesh.elements:
+        raise MeshError("only triangles with attributes of vertices and faces can be coded")
     if bits is not None or max_error:
         lattice.require_finite(mesh.vertices)
     report("lattice", 0, N_STAGES)
@@ -192,8 +195,8 @@ def _arranged(
     vertices: lattice.Floats,
     split: Split,
     kept: SourceOrder,
-    vertex_attributes: attributes.Attributes,
-    face_attributes: attributes.Attributes,
+    vertex_attributes: Attributes,
+    face_attributes: Attributes,
     carried: dict[str, Any],
 ) -> Mesh:
     """The mesh from what is in output order."""

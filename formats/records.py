@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from ebz.codec.arrays import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import CorruptError, corrupt_at
-from ebz.codec.mesh import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
 from ebz.formats import layout
 from ebz.formats.chunks import Chunk
 
