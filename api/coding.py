@@ -2,6 +2,7 @@
 
 import math
 import os
+from collections.abc import Sequence
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -10,7 +11,7 @@ from ebz.codec import pipeline
 from ebz.codec.connectivity import OutputOrder
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
-from ebz.codec.lattice import MAX_BITS
+from ebz.codec.lattice import MAX_BITS, GridLattice
 from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE, LEVELS
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
@@ -22,6 +23,7 @@ from ebz.formats import container
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
 BytesLike = bytes | bytearray | memoryview
+Grid = tuple[float | Sequence[float], float]
 
 
 @overload
@@ -30,6 +32,7 @@ def compress(
     *,
     bits: int | None = ...,
     max_error: float | None = ...,
+    grid: Grid | None = ...,
     keep_order: bool = ...,
     return_permutation: Literal[False] = ...,
     level: int = ...,
@@ -45,6 +48,7 @@ def compress(
     *,
     bits: int | None = ...,
     max_error: float | None = ...,
+    grid: Grid | None = ...,
     keep_order: bool = ...,
     return_permutation: Literal[True],
     level: int = ...,
@@ -59,6 +63,7 @@ def compress(
     *,
     bits: int | None = None,
     max_error: float | None = None,
+    grid: Grid | None = None,
     keep_order: bool = False,
     return_permutation: bool = False,
     level: int = DEFAULT_LEVEL,
@@ -69,7 +74,9 @@ def compress(
     """The .ebz bytes of a mesh; without `bits` and `max_error` nothing is lost.
 
     bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).
-    max_error: in model units; no coordinate moves by more.  At most one of the two.
+    max_error: in model units; no coordinate moves by more.
+    grid: (origin, step), origin a number or three: coordinates move to the nearest origin + step *
+    integer, so that meshes which share vertices still do.  At most one of these three.
     keep_order: vertices, faces and the first corner of each face come back as they are; without it
     their order may change.
     return_permutation: also return where the vertices and faces of the decoded mesh come from.
@@ -83,7 +90,8 @@ def compress(
     compress(decompress(data)) gives the same bytes with the same options.  Raises OptionError and
     MeshError.
     """
-    _check_options(bits, max_error, level)
+    lattice = None if grid is None else _grid(grid)
+    _check_options(bits, max_error, lattice, level)
     table = None if model is None and not embed_model else load_model(model)
     encoded, order = pipeline.encode(
         mesh,
@@ -91,6 +99,7 @@ def compress(
         level=level,
         bits=bits,
         max_error=max_error,
+        grid=lattice,
         keep_order=keep_order,
         progress=progress,
     )
@@ -152,9 +161,25 @@ def _is_file(model: Any) -> bool:
     return model is not None and not isinstance(model, AnyTable) and str(model) not in table_names()
 
 
-def _check_options(bits: int | None, max_error: float | None, level: int) -> None:
-    if bits is not None and max_error is not None:
-        raise OptionError("bits and max_error exclude each other")
+def _grid(grid: Grid) -> GridLattice:
+    try:
+        origin, step = grid
+        x, y, z = np.broadcast_to(np.asarray(origin, np.float64), 3).tolist()
+        step = float(step)
+    except (TypeError, ValueError):
+        raise OptionError(f"grid is {grid!r}, not (origin, step)") from None
+    if not (math.isfinite(step) and step > 0):
+        raise OptionError(f"the step of the grid is {step}, not a finite number above 0")
+    if not all(map(math.isfinite, (x, y, z))):
+        raise OptionError(f"the origin of the grid is {origin}, not finite")
+    return GridLattice((x, y, z), step)
+
+
+def _check_options(
+    bits: int | None, max_error: float | None, grid: GridLattice | None, level: int
+) -> None:
+    if sum(option is not None for option in (bits, max_error, grid)) > 1:
+        raise OptionError("bits, max_error and grid exclude each other")
     if bits is not None and not 1 <= bits <= MAX_BITS:
         raise OptionError(f"bits is {bits}, not 1 to {MAX_BITS}")
     if max_error is not None and not (math.isfinite(max_error) and max_error >= 0):

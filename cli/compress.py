@@ -14,6 +14,7 @@ Examples:
   ebz compress bunny.ply                     writes bunny.ply.ebz
   ebz compress --bits 14 -o b.ebz bunny.ply  a grid of 2^14 steps
   ebz compress --max-error 0.005 *.stl       no coordinate moves by more
+  ebz compress --grid 0,0.01 tile*.ply       tiles meet without cracks
   ebz compress --keep-order rig.ply          indices stay valid
   make-mesh | ebz compress > mesh.ebz        recognised by content
 
@@ -43,6 +44,12 @@ On a terminal, one line per file tells the sizes; -q omits it, -v says more.
     help="Move no coordinate by more than X, in units of the mesh.",
 )
 @click.option(
+    "--grid",
+    metavar="ORIGIN,STEP",
+    type=options.grid,
+    help="Round positions to ORIGIN (one number, or X,Y,Z) plus multiples of STEP.",
+)
+@click.option(
     "--keep-order",
     is_flag=True,
     help="Keep the order of vertices and faces and the first corner of each face.",
@@ -68,13 +75,13 @@ def compress(
 ) -> int:
     """Compress each INPUT (a.ply) into a file next to it (a.ply.ebz).
 
-    PLY, OBJ, OFF, STL, glTF and GLB are read. Nothing is lost unless --bits or --max-error
-    allows it, not even isolated vertices or attributes; only the order of vertices and faces
+    PLY, OBJ, OFF, STL, glTF and GLB are read. Nothing is lost unless --bits, --max-error or
+    --grid allows it, not even isolated vertices or attributes; only the order of vertices and faces
     may change, unless --keep-order is given. Mode and time of INPUT are kept. No INPUT, or "-",
     is standard input, which is compressed to standard output.
     """
-    if coding["bits"] is not None and coding["max_error"] is not None:
-        raise click.UsageError("--bits and --max-error exclude each other.")
+    if sum(coding[name] is not None for name in ("bits", "max_error", "grid")) > 1:
+        raise click.UsageError("--bits, --max-error and --grid exclude each other.")
     named = options.single_output(output, to_stdout, inputs)
     manner = Manner(force, remove and not keep, quiet, verbose)
     coding["level"] = level or 6

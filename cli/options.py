@@ -25,6 +25,17 @@ def size(text: str) -> int:
     return n_bytes
 
 
+def grid(text: str) -> tuple[list[float], float]:
+    """The origin and the step of a grid: ORIGIN,STEP or X,Y,Z,STEP."""
+    try:
+        *origin, step = map(float, text.split(","))
+    except ValueError:
+        origin, step = [], 0.0
+    if len(origin) not in (1, 3):
+        raise click.BadParameter(f"{text!r} is not ORIGIN,STEP or X,Y,Z,STEP.")
+    return origin, step
+
+
 class LevelOption(click.Option):
     """One of -1 .. -9; the first stands for all of them in the help."""
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ebz.codec import connectivity, matching, welding
 from ebz.codec.errors import EbzError
-from ebz.codec.lattice import BoxLattice, Lattice, StepLattice, fit, restore
+from ebz.codec.lattice import BoxLattice, GridLattice, Lattice, StepLattice, fit, restore
 from ebz.codec.mesh import Mesh
 
 Order = npt.NDArray[Any]
@@ -124,14 +124,18 @@ def allowed_error(lattice: Lattice, original: Mesh) -> float:
     """How far a coordinate may move, in model units."""
     if isinstance(lattice, StepLattice):
         return lattice.max_error
+    largest = float(np.abs(original.vertices).max(initial=0))
     if isinstance(lattice, BoxLattice):
-        # Half a step, half the spacing of the floats there, and a few roundings of doubles.
-        largest = float(np.abs(original.vertices).max(initial=0))
-        floats, doubles = np.finfo(original.vertices.dtype), np.finfo(np.float64)
-        spacing = float(floats.eps) * largest + float(floats.eps) * lattice.step
-        rounding = 4 * float(doubles.eps) * (largest + lattice.side)
-        return lattice.step / 2 + spacing / 2 + rounding + float(floats.smallest_subnormal)
-    return 0.0
+        reach = largest + lattice.side
+    elif isinstance(lattice, GridLattice):
+        reach = 2 * largest + max(map(abs, lattice.origin))
+    else:
+        return 0.0
+    # Half a step, half the spacing of the floats there, and a few roundings of doubles.
+    floats, doubles = np.finfo(original.vertices.dtype), np.finfo(np.float64)
+    spacing = float(floats.eps) * largest + float(floats.eps) * lattice.step
+    rounding = 4 * float(doubles.eps) * reach
+    return lattice.step / 2 + spacing / 2 + rounding + float(floats.smallest_subnormal)
 
 
 def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
@@ -233,9 +237,12 @@ def _cannot_be_allowed(
 
 def _as_stored(vertices: npt.NDArray[Any], lattice: Lattice) -> npt.NDArray[Any]:
     """The coordinates that compressing at the same precision would store."""
-    if not isinstance(lattice, BoxLattice | StepLattice) or not np.isfinite(vertices).all():
+    lossy = BoxLattice | StepLattice | GridLattice
+    if not isinstance(lattice, lossy) or not np.isfinite(vertices).all():
         return vertices
-    if isinstance(lattice, BoxLattice):
+    if isinstance(lattice, GridLattice):
+        points = fit(vertices, grid=lattice)
+    elif isinstance(lattice, BoxLattice):
         points = fit(vertices, bits=lattice.bits)
     else:
         points = fit(vertices, max_error=lattice.max_error)

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.errors import MeshError
+from ebz.codec.errors import MeshError, OptionError
 
 Floats = npt.NDArray[Any]
 Integers = npt.NDArray[np.int64]
@@ -104,7 +104,34 @@ class StepLattice:
         return (integers * self.step).astype(dtype)
 
 
-Lattice = FloatLattice | DecimalLattice | BoxLattice | StepLattice
+@dataclass(frozen=True)
+class GridLattice:
+    """origin + step * integers, wherever the mesh is: what meshes share, they decode alike.
+
+    Whether a coordinate is an exception depends on the coordinate alone.
+    """
+
+    origin: tuple[float, float, float]
+    step: float
+    kind = "grid"
+
+    def integers(self, coordinates: Floats) -> Integers:
+        return _to_integers(self._multiples(coordinates))
+
+    def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        moved: Floats = np.array(self.origin) + integers * self.step
+        return moved.astype(dtype)
+
+    def reaches(self, coordinates: Floats) -> npt.NDArray[np.bool_]:
+        """Which coordinates are few enough steps from the origin to have an integer."""
+        return np.abs(self._multiples(coordinates)) <= MAX_MULTIPLE
+
+    def _multiples(self, coordinates: Floats) -> npt.NDArray[np.float64]:
+        multiples: npt.NDArray[np.float64] = coordinates.astype(np.float64) - np.array(self.origin)
+        return multiples / self.step
+
+
+Lattice = FloatLattice | DecimalLattice | BoxLattice | StepLattice | GridLattice
 
 
 @dataclass(frozen=True)
@@ -126,12 +153,20 @@ class Points:
 
 # Whatever overflows or is not a number comes back different, and so becomes an exception.
 @np.errstate(all="ignore")
-def fit(coordinates: Floats, bits: int | None = None, max_error: float | None = None) -> Points:
-    """The coordinates on the lattice asked for; without bits and max_error, nothing is lost.
+def fit(
+    coordinates: Floats,
+    bits: int | None = None,
+    max_error: float | None = None,
+    grid: GridLattice | None = None,
+) -> Points:
+    """The coordinates on the lattice asked for; without bits, max_error and grid, nothing is lost.
 
-    A lattice finer than the floats themselves gives way to one that loses nothing.
+    A lattice finer than the floats themselves gives way to one that loses nothing, but for a grid,
+    which others share.
     Where something may be lost, the coordinates must be finite: see require_finite.
     """
+    if grid is not None:
+        return _on_grid(coordinates, grid)
     if bits is None and not max_error:
         return _lossless(coordinates)
     points = (
@@ -146,6 +181,18 @@ def require_finite(vertices: Floats) -> None:
         row, axis = np.argwhere(~np.isfinite(vertices))[0]
         value = vertices[row, axis]
         raise MeshError(f"vertex {row}: {'xyz'[axis]} is {value}, which cannot be quantised")
+
+
+@np.errstate(all="ignore")
+def require_on_grid(vertices: Floats, grid: GridLattice) -> None:
+    """Raise OptionError, naming the first vertex that is too many steps from the grid's origin."""
+    inside = grid.reaches(vertices)
+    if not inside.all():
+        row, axis = np.argwhere(~inside)[0]
+        raise OptionError(
+            f"vertex {row}: {'xyz'[axis]} is {vertices[row, axis]}, more than 2^40 steps of the "
+            "grid from its origin"
+        )
 
 
 @np.errstate(all="ignore")
@@ -209,6 +256,15 @@ def _within(coordinates: Floats, max_error: float) -> Points | None:
     if not np.array_equal(lattice.integers(decoded), integers):
         return None
     return Points(lattice, integers, np.flatnonzero(off))
+
+
+def _on_grid(coordinates: Floats, grid: GridLattice) -> Points:
+    integers = grid.integers(coordinates)
+    decoded = grid.coordinates(integers, coordinates.dtype)
+    # Where the step is close to the resolution of the floats, a point may not come back as itself.
+    off = (grid.integers(decoded) != integers) | ~np.isfinite(decoded)
+    off |= ~grid.reaches(coordinates)
+    return Points(grid, integers, np.flatnonzero(off))
 
 
 def _to_integers(multiples: npt.NDArray[np.float64]) -> Integers:

@@ -15,7 +15,7 @@ from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, MeshError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
-from ebz.codec.lattice import Points
+from ebz.codec.lattice import GridLattice, Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
 from ebz.codec.mesh import Mesh, face_dtype
 from ebz.codec.order import SourceOrder
@@ -41,22 +41,25 @@ def encode(
     level: int = DEFAULT_LEVEL,
     bits: int | None = None,
     max_error: float | None = None,
+    grid: GridLattice | None = None,
     keep_order: bool = False,
     progress: Progress | None = None,
 ) -> tuple[EncodedMesh, OutputOrder]:
     """Every part of a mesh as streams, and where the items of the output come from.
 
-    Nothing is lost unless bits or max_error say so, and the order without keep_order.
+    Nothing is lost unless bits, max_error or grid say so, and the order without keep_order.
     model: of the word; None: the best of those of the level.
     """
     report = progress or _silent
     mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
     if not mesh.is_triangles or mesh.corner_attributes or mesh.elements:
         raise MeshError("only triangles with attributes of vertices and faces can be coded")
-    if bits is not None or max_error:
+    if bits is not None or max_error or grid is not None:
         lattice.require_finite(mesh.vertices)
+    if grid is not None:
+        lattice.require_on_grid(mesh.vertices, grid)
     report("lattice", 0, N_STAGES)
-    points = lattice.fit(mesh.vertices, bits, max_error)
+    points = lattice.fit(mesh.vertices, bits, max_error, grid)
     exact = mesh.vertices.reshape(-1)[points.exceptions]
     stored = lattice.restore(points, mesh.vertices.dtype, exact)
     report("connectivity", 1, N_STAGES)

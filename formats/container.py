@@ -14,6 +14,7 @@ from ebz.codec.lattice import (
     BoxLattice,
     DecimalLattice,
     FloatLattice,
+    GridLattice,
     Lattice,
     StepLattice,
 )
@@ -244,6 +245,11 @@ def _parse_lattice(header: Any) -> Lattice:
         if not np.isfinite(parameters.max_error) or parameters.max_error <= 0:
             raise CorruptError(f"a maximal error of {parameters.max_error}")
         return StepLattice(parameters.max_error)
+    if kind == "grid":
+        origin = tuple(parameters.origin)
+        if not np.isfinite([*origin, parameters.step]).all() or parameters.step <= 0:
+            raise CorruptError(f"a grid of origin {origin} and step {parameters.step}")
+        return GridLattice(origin, parameters.step)
     return FloatLattice()
 
 

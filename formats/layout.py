@@ -86,7 +86,7 @@ VarInt = ExprAdapter(
 ChunkHead = Struct("type" / Bytes(1), "length" / VarInt)
 CRC32 = Int32ul
 
-LATTICE_KINDS = ("float", "decimal", "box", "step")
+LATTICE_KINDS = ("float", "decimal", "box", "step", "grid")
 DTYPE_SIZES = (4, 8)
 
 Float = IfThenElse(this._root.itemsize == 4, Float32l, Float64l)
@@ -113,6 +113,7 @@ Header = Struct(
                 "bits" / Byte, "origin" / Array(3, Float), "side" / Float64l
             ),
             LATTICE_KINDS.index("step"): Struct("max_error" / Float64l),
+            LATTICE_KINDS.index("grid"): Struct("origin" / Array(3, Float64l), "step" / Float64l),
         },
     ),
     If(this.lattice < len(LATTICE_KINDS), Terminated),

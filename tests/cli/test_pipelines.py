@@ -111,7 +111,7 @@ def test_usage_errors_exit_with_1(sh, names):
         "-o x a.ply a.ply": b"-o takes one INPUT only.",
         "-c a.ply a.ply": b"-c takes one INPUT only.",
         "-c -o x a.ply": b"-c and -o exclude each other.",
-        "--bits 3 --max-error 1 a.ply": b"--bits and --max-error exclude each other.",
+        "--bits 3 --max-error 1 a.ply": b"--bits, --max-error and --grid exclude each other.",
         "--bits 31 a.ply": b"Invalid value for '--bits': 31 is not in the range 1<=x<=30.",
         "--from step a.ply": (
             b"Invalid value for '--from': 'step' is not one of "

@@ -66,7 +66,7 @@ def error_or_same(data: bytes, name: str) -> None:
 def test_the_files_have_every_kind_of_chunk():
     found = {kind for data in FILES.values() for kind, _ in split(data)}
     assert found == {bytes([letter]) for letter in b"HMWSGIPXNORVFDZ"}
-    assert {read_header(data)[0]["lattice"] for data in FILES.values()} == {0, 1, 2, 3}
+    assert {read_header(data)[0]["lattice"] for data in FILES.values()} == {0, 1, 2, 3, 4}
 
 
 @every_file
@@ -210,7 +210,7 @@ DOUBLES = [np.inf, -np.inf, np.nan, -1.0, 0.0, 5e-324, 1e308, 1.7e308]
 
 
 @pytest.mark.parametrize("value", DOUBLES)
-@pytest.mark.parametrize("name", ["box", "step"])
+@pytest.mark.parametrize("name", ["box", "step", "grid"])
 def test_absurd_lattices_are_noticed(name, value):
     payload = split(FILES[name])[0][1]
     error(with_payload(FILES[name], b"H", payload[:-8] + np.float64(value).tobytes()))
