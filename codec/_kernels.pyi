@@ -101,6 +101,12 @@ def encode_integers(values: Annotated[NDArray[numpy.uint64], dict(shape=(None,),
 def decode_integers(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_rows: int, n_columns: int) -> Annotated[NDArray[numpy.uint64], dict(shape=(None,))]:
     """The rows, flattened."""
 
+def encode_text(prior: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], text: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
+    """Text like the prior."""
+
+def decode_text(prior: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_bytes: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+    """The text."""
+
 def encode_rows(rows: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], stride: int) -> bytes:
     """Rows of `stride` bytes."""
 

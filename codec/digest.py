@@ -31,7 +31,7 @@ def digest(mesh: Mesh) -> bytes:
         _add(state, f"corners of {name}", element.corners)
         _add_all(state, name, element.attributes)
         _add_all(state, f"{name} corner", element.corner_attributes)
-    state.update(metadata.encode(mesh.metadata) if mesh.metadata else b"")
+    state.update(metadata.to_text(mesh.metadata) if mesh.metadata else b"")
     return bytes(state.digest())
 
 

@@ -30,6 +30,14 @@ class EncodedArray:
 
 
 @dataclass(frozen=True)
+class EncodedText:
+    """Text of `n_bytes`, which `data` codes."""
+
+    n_bytes: int
+    data: bytes
+
+
+@dataclass(frozen=True)
 class Streams:
     """Entropy-coded bytes, by what they hold."""
 
@@ -60,7 +68,7 @@ class EncodedMesh:
     streams: Streams
     vertex_attributes: list[EncodedArray] = field(default_factory=list)
     face_attributes: list[EncodedArray] = field(default_factory=list)
-    metadata: bytes = b""
+    metadata: EncodedText | None = None
     digest: bytes = b""
     places: Mapping[str, str] = field(default_factory=dict)
 

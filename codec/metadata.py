@@ -3,13 +3,36 @@
 import json
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels
+from ebz.codec.encoded import EncodedText
 from ebz.codec.errors import CorruptError, MeshError
+from ebz.codec.metadata_prior import PRIOR
 
 # An object with this one key holds a byte string in hexadecimal.
 BYTES = "$bytes"
 
 
-def encode(metadata: dict[str, Any]) -> bytes:
+def encode(metadata: dict[str, Any]) -> EncodedText | None:
+    """The coded text, None where there is nothing; raises MeshError for what JSON cannot hold."""
+    if not metadata:
+        return None
+    text = to_text(metadata)
+    return EncodedText(len(text), _kernels.encode_text(_view(PRIOR), _view(text)))
+
+
+def decode(encoded: EncodedText | None) -> dict[str, Any]:
+    """The values; raises CorruptError where the text is not a JSON object."""
+    if encoded is None:
+        return {}
+    return from_text(
+        _kernels.decode_text(_view(PRIOR), _view(encoded.data), encoded.n_bytes).tobytes()
+    )
+
+
+def to_text(metadata: dict[str, Any]) -> bytes:
     """Compact JSON in UTF-8; raises MeshError for what JSON cannot hold."""
     try:
         text = json.dumps(_to_json(metadata), ensure_ascii=False, separators=(",", ":"))
@@ -18,19 +41,23 @@ def encode(metadata: dict[str, Any]) -> bytes:
     return text.encode("utf-8", "surrogatepass")
 
 
-def decode(data: bytes) -> dict[str, Any]:
+def from_text(text: bytes) -> dict[str, Any]:
     """The values; raises CorruptError where the bytes are not a JSON object."""
     try:
-        metadata = json.loads(data.decode("utf-8", "surrogatepass"), object_hook=_from_json)
+        metadata = json.loads(text.decode("utf-8", "surrogatepass"), object_hook=_from_json)
         if not isinstance(metadata, dict):
             raise CorruptError("not an object")
         # What is decoded must be a mesh that can be encoded: nested too deep, for one, it cannot.
-        encode(metadata)
+        to_text(metadata)
     except (TypeError, ValueError, RecursionError) as error:
         raise CorruptError(str(error)) from None
     except MeshError as error:
         raise CorruptError(error.message) from None
     return metadata
+
+
+def _view(data: bytes) -> npt.NDArray[np.uint8]:
+    return np.frombuffer(data, np.uint8)
 
 
 def _to_json(value: Any) -> Any:

@@ -97,7 +97,7 @@ def encode(
         ),
         vertex_attributes=attributes.encode(mesh.vertex_attributes, order.vertices),
         face_attributes=attributes.encode(mesh.face_attributes, order.faces),
-        metadata=metadata.encode(mesh.metadata) if mesh.metadata else b"",
+        metadata=metadata.encode(mesh.metadata),
     )
     decoded = _restored(mesh, order, kept, split, stored[order.vertices])
     report("done", N_STAGES, N_STAGES)
@@ -149,7 +149,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
 
 def _decode_metadata(encoded: EncodedMesh) -> dict[str, Any]:
     with corrupt_at(encoded.place("metadata")):
-        return metadata.decode(encoded.metadata) if encoded.metadata else {}
+        return metadata.decode(encoded.metadata)
 
 
 def _silent(stage: str, done: int, total: int) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ebz.codec.connectivity import WordCounts
-from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
+from ebz.codec.encoded import EncodedArray, EncodedMesh, EncodedText, Streams
 from ebz.codec.errors import CorruptError, VersionError, corrupt_at
 from ebz.codec.lattice import (
     MAX_BITS,
@@ -61,7 +61,8 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
     for array in encoded.face_attributes:
         parts.append(chunks.write(layout.FACE_ATTRIBUTE, records.attribute(array)))
     if encoded.metadata:
-        parts.append(chunks.write(layout.METADATA, encoded.metadata))
+        text = layout.build(layout.Text, vars(encoded.metadata))
+        parts.append(chunks.write(layout.METADATA, text))
     parts.append(chunks.write(layout.END, encoded.digest))
     return b"".join(parts)
 
@@ -152,10 +153,18 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         ),
         vertex_attributes=arrays[layout.VERTEX_ATTRIBUTE],
         face_attributes=arrays[layout.FACE_ATTRIBUTE],
-        metadata=payload(layout.METADATA),
+        metadata=_text(found.get(layout.METADATA)),
         digest=payload(layout.END),
         places=places,
     )
+
+
+def _text(chunk: Chunk | None) -> EncodedText | None:
+    if chunk is None:
+        return None
+    with corrupt_at(chunk.where):
+        parsed = layout.parse(layout.Text, chunk.payload)
+    return EncodedText(parsed.n_bytes, parsed.data)
 
 
 def _header(encoded: EncodedMesh, model: int) -> bytes:

@@ -161,6 +161,9 @@ Attribute = Struct(
 )
 
 
+Text = Struct("n_bytes" / VarInt, "data" / GreedyBytes)
+
+
 def build(declaration: Any, values: Any) -> bytes:
     """The bytes of a declared structure."""
     return bytes(declaration.build(values))

@@ -13,6 +13,8 @@ from ebz.codec.order import Method as OrderMethod
 CHEAPEST_BIT = math.log2(65536 / (65536 - 32))
 # The cheapest decision about a position or an order: its probability is at most 65535 / 2^16.
 CHEAPEST_DECISION = math.log2(65536 / 65535)
+# The cheapest decision of learnt log-odds: squash in codec/kernels/logistic.hpp.
+CHEAPEST_LEARNT = math.log2(65536 / 65528)
 # What a range coder's stream of b bytes holds is at most 8 b bits and these.
 SLACK_BITS = 8
 DEFAULT_MEMORY_LIMIT = 4 << 30
@@ -20,6 +22,7 @@ DEFAULT_MEMORY_LIMIT = 4 << 30
 BYTES_PER_FACE = 160
 BYTES_PER_VERTEX = 160
 BYTES_PER_INTEGER = 128
+BYTES_PER_CHARACTER = 32
 
 
 def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) -> None:
@@ -34,11 +37,16 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
     _check_order("face order", counts.n_faces - 1, streams.order.faces, encoded)
     _check_order("rotations", counts.n_faces, streams.order.rotations, encoded)
+    n_text = encoded.metadata.n_bytes if encoded.metadata else 0
+    if encoded.metadata:
+        with corrupt_at(encoded.place("metadata")):
+            _check("characters", n_text, 8 * CHEAPEST_LEARNT, encoded.metadata.data)
     n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
     size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
     size += _arrays_size(encoded.face_attributes, counts.n_faces)
     size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices
+    size += BYTES_PER_CHARACTER * n_text
     size += BYTES_PER_INTEGER * n_integers + 2 * n_bytes
     if size > memory_limit:
         raise MemoryLimitError(

@@ -14,6 +14,7 @@
 #include "order/permutations.hpp"
 #include "positions/positions.hpp"
 #include "splits.hpp"
+#include "text.hpp"
 #include "topology.hpp"
 #include "weld.hpp"
 
@@ -264,6 +265,18 @@ Array<uint8_t> decode_rows(const Input<uint8_t>& bytes, size_t n_rows, size_t st
     }));
 }
 
+nb::bytes encode_text(const Input<uint8_t>& prior, const Input<uint8_t>& text) {
+    return to_bytes(without_gil([&] { return ebz::encode_text(view(prior), view(text)); }));
+}
+
+Array<uint8_t> decode_text(const Input<uint8_t>& prior, const Input<uint8_t>& bytes, size_t n_bytes) {
+    return to_numpy(without_gil([&] {
+        std::vector<uint8_t> text(n_bytes);
+        ebz::decode_text(view(prior), view(bytes), text);
+        return text;
+    }));
+}
+
 std::tuple<int32_t, int32_t, int32_t, int32_t> describe(const Input<int32_t>& opposite) {
     const ebz::Topology topology = without_gil([&] { return ebz::describe(view(opposite)); });
     return std::make_tuple(topology.n_components, topology.n_boundary_loops, topology.n_boundary_edges,
@@ -340,6 +353,8 @@ NB_MODULE(_kernels, m) {
           "Rows of unsigned integers, a model per column.");
     m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,
           "The rows, flattened.");
+    m.def("encode_text", &encode_text, "prior"_a, "text"_a, "Text like the prior.");
+    m.def("decode_text", &decode_text, "prior"_a, "data"_a, "n_bytes"_a, "The text.");
     m.def("encode_rows", &encode_rows, "rows"_a, "stride"_a, "Rows of `stride` bytes.");
     m.def("decode_rows", &decode_rows, "data"_a, "n_rows"_a, "stride"_a, "The rows, flattened.");
     m.def("describe", &describe, "opposite"_a,

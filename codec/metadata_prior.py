@@ -1,0 +1,27 @@
+"""The text that metadata is expected to be like; part of the format, so that it never changes."""
+
+PRIOR = (
+    b'{"format":"glb","name":"Mesh_0","materials":["Material"],"extras":{}}{"format":"obj","ob'
+    b'j":{"comments":["Blender 4.2.0 www.blender.org","Created by MeshLab","Object"],"objects"'
+    b':["Cube","default"],"groups":["default","off"],"materials":["None","Material.001"],"mtll'
+    b'ib":["scene.mtl"]}}{"format":"off","off":{"keyword":"COFF"}}{"format":"stl","stl":{"form'
+    b'at":"ascii","names":["OpenSCAD_Model"]}}{"format":"stl","stl":{"format":"binary","header'
+    b'":{"$bytes":"53544c20204558504f525445442020202020202020202020202020000000000000000000000'
+    b'00000000000"}}}{"format":"ply","ply":{"format":"binary_big_endian","header":["obj_info n'
+    b'um_cols 512","element vertex","property double x","property double y","property double z'
+    b'","property float scalar_quality","element face","property list uchar uint vertex_index"'
+    b',"element edge","property int vertex1","property int vertex2"]}}{"format":"ply","ply":{"'
+    b'format":"ascii","newline":"\\r\\n","header":["comment Created by Blender","element vertex"'
+    b',"property float32 x","property float32 y","property float32 z","property float32 confid'
+    b'ence","property float32 intensity","element face","property list uint8 int32 vertex_indi'
+    b'ces"]}}{"format":"ply","ply":{"format":"binary_little_endian","header":["comment VCGLIB '
+    b'generated","comment TextureFile texture.png","element vertex","property float x","proper'
+    b'ty float y","property float z","property float nx","property float ny","property float n'
+    b'z","property float s","property float t","property float u","property float v","property'
+    b' uchar red","property uchar green","property uchar blue","property uchar alpha","propert'
+    b'y float quality","element face","property list uchar int vertex_indices","property uchar'
+    b' red","property list uchar float texcoord","property int texnumber","property int flags"'
+    b']}}{"format":"ply","ply":{"format":"binary_little_endian","header":["element vertex","pr'
+    b'operty float x","property float y","property float z","element face","property list ucha'
+    b'r int vertex_indices"]}}'
+)
