@@ -14,6 +14,12 @@ MAX_DIMENSIONS = 32
 # Of the extents of one entry that are not zero: every numpy can make the array.
 MAX_ENTRY = 2**31
 NUMBERS = "biuf"  # kinds of dtypes
+INT32_VERTICES = 2**31
+
+
+def face_dtype(n_vertices: int) -> np.dtype[Any]:
+    """The dtype of vertex indices for `n_vertices`: int32, int64 from 2^31 vertices on."""
+    return np.dtype(np.int32 if n_vertices < INT32_VERTICES else np.int64)
 
 
 def native(array: npt.NDArray[Any]) -> npt.NDArray[Any]:

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import connectivity, matching, welding
+from ebz.codec.elements import Element
 from ebz.codec.errors import EbzError
 from ebz.codec.lattice import BoxLattice, GridLattice, Lattice, StepLattice, fit, restore
 from ebz.codec.mesh import Mesh
@@ -50,10 +51,11 @@ class Verification:
 
 @dataclass(frozen=True)
 class _Correspondence:
-    """For each vertex and face of the decoded mesh, that of the original."""
+    """For each vertex, face and corner of the decoded mesh, that of the original."""
 
     vertices: Order
     faces: Order
+    corners: Order
     how: str
 
 
@@ -87,7 +89,8 @@ def compare(
     # Symmetric surfaces are traversed alike in several ways: the data have the last word.
     matched = _by_data(decoded, original, lattice)
     if isinstance(matched, tuple):
-        match = _Correspondence(*matched, "data")
+        corners = _corresponding_corners(decoded, original, *matched)
+        match = _Correspondence(*matched, corners, "data")
         return _verdict(decoded, original, match, allowed, checked)
     difference = matched or _different_face_data(decoded, original)
     if difference and (not allowed or _cannot_be_allowed(decoded, original, match, allowed)):
@@ -146,9 +149,31 @@ def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
     ):
         if got != wanted:
             return f"{what}: {got}, not {wanted}"
-    return _different_attributes(
-        "vertex", decoded.vertex_attributes, original.vertex_attributes
-    ) or _different_attributes("face", decoded.face_attributes, original.face_attributes)
+    for owner, ours, theirs in (
+        ("vertex", decoded.vertex_attributes, original.vertex_attributes),
+        ("face", decoded.face_attributes, original.face_attributes),
+        ("corner", decoded.corner_attributes, original.corner_attributes),
+    ):
+        difference = _different_attributes(owner, ours, theirs)
+        if difference:
+            return difference
+    return _different_elements(decoded.elements, original.elements)
+
+
+def _different_elements(got: dict[str, Element], wanted: dict[str, Element]) -> str | None:
+    for name in sorted(got.keys() | wanted.keys()):
+        if name not in got or name not in wanted:
+            return f"element {name!r}: {'missing' if name in wanted else 'not in MESH'}"
+        ours, theirs = got[name], wanted[name]
+        if not np.array_equal(ours.offsets, theirs.offsets):
+            return f"element {name!r}: rows of other lengths"
+        difference = _different_attributes(name, ours.attributes, theirs.attributes)
+        difference = difference or _different_attributes(
+            f"{name} corner", ours.corner_attributes, theirs.corner_attributes
+        )
+        if difference:
+            return difference
+    return None
 
 
 def _different_attributes(owner: str, got: Attributes, wanted: Attributes) -> str | None:
@@ -172,7 +197,9 @@ def _by_order(decoded: Mesh, original: Mesh) -> _Correspondence | str:
         face = int(np.argmax(differs))
         got, wanted = (mesh.faces[face].tolist() for mesh in (decoded, original))
         return f"order: face {face} is {got}, not {wanted}"
-    return _Correspondence(np.arange(len(decoded.vertices)), np.arange(len(decoded.faces)), "order")
+    corners = np.arange(decoded.n_corners)
+    vertices, faces = np.arange(decoded.n_vertices), np.arange(decoded.n_faces)
+    return _Correspondence(vertices, faces, corners, "order")
 
 
 def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence | None:
@@ -186,7 +213,28 @@ def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspon
     faces = number[original.faces[order.faces]]
     if not np.array_equal(matching.rotated(faces), matching.rotated(decoded.faces)):
         return None
-    return _Correspondence(order.vertices, order.faces, "traversal")
+    corners = _corresponding_corners(decoded, original, order.vertices, order.faces)
+    return _Correspondence(order.vertices, order.faces, corners, "traversal")
+
+
+def _corresponding_corners(decoded: Mesh, original: Mesh, vertices: Order, faces: Order) -> Order:
+    """The corner of the original for each of the decoded mesh, whose faces may be rotated.
+
+    Where several corners fit, the first whose values are the same.
+    """
+    got, wanted = vertices[decoded.faces], original.faces[faces]
+    turns = (np.arange(3)[:, None] + np.arange(3)) % 3
+    candidates = 3 * np.asarray(faces, np.int64)[:, None, None] + turns
+    fits = np.stack([(got == wanted[:, turn]).all(axis=1) for turn in turns], axis=1)
+    if (fits.sum(axis=1) > 1).any():
+        ours, theirs = (_bytes(m.corner_attributes, m.n_corners) for m in (decoded, original))
+        same = (ours.reshape(len(faces), 1, 3, ours.shape[1]) == theirs[candidates]).all(
+            axis=(2, 3)
+        )
+        fits = np.where((fits & same).any(axis=1)[:, None], fits & same, fits)
+    turn = np.argmax(fits, axis=1)
+    corners: Order = candidates[np.arange(len(faces)), turn].reshape(-1)
+    return corners
 
 
 def _by_data(decoded: Mesh, original: Mesh, lattice: Lattice) -> tuple[Order, Order] | str | None:
@@ -290,12 +338,38 @@ def _other_attributes(
     for owner, got, wanted, order in (
         ("vertex", decoded.vertex_attributes, original.vertex_attributes, match.vertices),
         ("face", decoded.face_attributes, original.face_attributes, match.faces),
+        ("corner", decoded.corner_attributes, original.corner_attributes, match.corners),
     ):
         if got or wanted:
             checked.append(f"{owner} attributes")
-        for name in sorted(got):
-            if not np.array_equal(
-                matching.as_bytes(got[name]), matching.as_bytes(wanted[name][order])
-            ):
-                return f"{owner} attribute {name!r}: values differ"
+        difference = _other_values(owner, got, wanted, order)
+        if difference:
+            return difference
+    if decoded.elements:
+        checked.append("elements")
+    return _other_elements(decoded.elements, original.elements, match)
+
+
+def _other_values(
+    owner: str, got: Attributes, wanted: Attributes, order: Order | slice
+) -> str | None:
+    for name in sorted(got):
+        if not np.array_equal(matching.as_bytes(got[name]), matching.as_bytes(wanted[name][order])):
+            return f"{owner} attribute {name!r}: values differ"
+    return None
+
+
+def _other_elements(
+    got: dict[str, Element], wanted: dict[str, Element], match: _Correspondence
+) -> str | None:
+    for name, ours in got.items():
+        theirs = wanted[name]
+        if not np.array_equal(match.vertices[ours.corners], theirs.corners):
+            return f"element {name!r}: corners at other vertices"
+        difference = _other_values(name, ours.attributes, theirs.attributes, slice(None))
+        difference = difference or _other_values(
+            f"{name} corner", ours.corner_attributes, theirs.corner_attributes, slice(None)
+        )
+        if difference:
+            return difference
     return None

@@ -105,6 +105,18 @@ class OutputOrder:
         """(m,) the source face of each face."""
         return self.corners // 3
 
+    def number_of(self, vertices: npt.NDArray[Any]) -> Int64s:
+        """The numbers of source vertices in the output."""
+        number = np.empty(len(self.vertices), np.int64)
+        number[self.vertices] = np.arange(len(self.vertices))
+        return np.take(number, vertices)
+
+    @property
+    def all_corners(self) -> Int32s:
+        """(3m,) the source corner of each corner."""
+        second = _next(self.corners)
+        return np.stack([self.corners, second, _next(second)], axis=1).reshape(-1)
+
 
 def encode(
     faces: npt.NDArray[Any], n_vertices: int, models: Sequence[WordModel]
@@ -240,6 +252,10 @@ def number_by_first_use(source: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
     is_first = first[source] == entries
     number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
     return number[first[source]], is_first
+
+
+def _next(corners: Int32s) -> Int32s:
+    return np.where(corners % 3 == 2, corners - 2, corners + 1)
 
 
 def _with_isolated(order: Int64s, n_vertices: int) -> Int64s:

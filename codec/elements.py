@@ -6,15 +6,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.arrays import Attributes, check_indices, checked_attributes, checked_offsets, native
+from ebz.codec.arrays import (
+    Attributes,
+    check_indices,
+    checked_attributes,
+    checked_offsets,
+    face_dtype,
+)
 
 
 @dataclass(eq=False)
 class Element:
     """Rows in their order, each with any number of vertices, and attributes.
 
-    corners: (k,) integers, the vertices of all rows one after another; they follow the vertices
-    where those are renumbered.  offsets: (r + 1,) int64, as Mesh.face_offsets.
+    corners: (k,) int32 (int64 as Mesh.faces), the vertices of all rows one after another; they
+    follow the vertices where those are renumbered.  offsets: (r + 1,) int64, as Mesh.face_offsets.
     attributes, corner_attributes: arrays by name whose first axis has r or k entries.
     """
 
@@ -31,7 +37,7 @@ class Element:
         corners = np.ascontiguousarray(self.corners).reshape(-1)
         self.offsets = checked_offsets(name, self.offsets, len(corners))
         check_indices(name, corners, self.offsets, n_vertices)
-        self.corners = native(corners)
+        self.corners = corners.astype(face_dtype(n_vertices), copy=False)
         self.attributes = checked_attributes(name, self.attributes, len(self))
         self.corner_attributes = checked_attributes(
             f"{name} corner", self.corner_attributes, len(self.corners)

@@ -15,12 +15,16 @@ from ebz.codec.positions import Method
 
 @dataclass(frozen=True)
 class EncodedArray:
-    """An attribute: `shape` is that of one entry, `data` codes all entries in output order."""
+    """An attribute: `shape` is that of one entry, `data` codes all entries in output order.
+
+    seams: of an attribute of corners, where those at a vertex differ; b"": nowhere.
+    """
 
     name: str
     dtype: np.dtype[Any]
     shape: tuple[int, ...]
     data: bytes
+    seams: bytes = b""
     place: str = "attribute"
 
     @property
@@ -35,6 +39,24 @@ class EncodedText:
 
     n_bytes: int
     data: bytes
+
+
+@dataclass(frozen=True)
+class EncodedElement:
+    """Rows beside vertices and faces.
+
+    corners: in rows of `width`, their vertices in output order.  lengths: how many of the corners
+    each row has; None where all have the same number.
+    """
+
+    name: str
+    n_rows: int
+    n_corners: int
+    lengths: EncodedArray | None
+    corners: EncodedArray
+    attributes: list[EncodedArray]
+    corner_attributes: list[EncodedArray]
+    place: str = "element"
 
 
 @dataclass(frozen=True)
@@ -68,6 +90,8 @@ class EncodedMesh:
     streams: Streams
     vertex_attributes: list[EncodedArray] = field(default_factory=list)
     face_attributes: list[EncodedArray] = field(default_factory=list)
+    corner_attributes: list[EncodedArray] = field(default_factory=list)
+    elements: list[EncodedElement] = field(default_factory=list)
     metadata: EncodedText | None = None
     digest: bytes = b""
     places: Mapping[str, str] = field(default_factory=dict)

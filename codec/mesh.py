@@ -6,20 +6,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.arrays import Attributes, check_indices, checked_attributes, checked_offsets, native
+from ebz.codec.arrays import (
+    Attributes,
+    check_indices,
+    checked_attributes,
+    checked_offsets,
+    face_dtype,
+    native,
+)
 from ebz.codec.elements import Element
 from ebz.codec.errors import MeshError
 
 VERTEX_DTYPES = (np.dtype(np.float32), np.dtype(np.float64))
-INT32_VERTICES = 2**31
 # What can be coded: half-edges and vertices have indices of 32 bits inside the kernels.
 MAX_FACES = (2**31 - 1) // 3
 MAX_VERTICES = 2**31 - 1
-
-
-def face_dtype(n_vertices: int) -> np.dtype[Any]:
-    """The dtype of face indices for `n_vertices`: int32, int64 from 2^31 vertices on."""
-    return np.dtype(np.int32 if n_vertices < INT32_VERTICES else np.int64)
 
 
 @dataclass(eq=False)

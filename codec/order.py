@@ -74,12 +74,27 @@ class SourceOrder:
 
     def place_corners(self, faces: Int32s) -> Int32s:
         """(m, 3) vertices of the output, as the source has them."""
-        if self.rotations is not None:
-            corners = (self.rotations.astype(np.intp)[:, None] + np.arange(3)) % 3
-            faces = np.take_along_axis(faces, corners, axis=1)
+        faces = self._rotated(faces)
         if self.vertices is not None:
             faces = self.vertices[faces]
         return self.place_faces(faces)
+
+    def place_values(self, values: Array) -> Array:
+        """Values per corner of the output, in the order of the source."""
+        by_face = values.reshape(len(values) // 3, 3, *values.shape[1:])
+        return self.place_faces(self._rotated(by_face)).reshape(values.shape)
+
+    def source_vertices(self, vertices: Array) -> Array:
+        """Vertices of the output, as the source numbers them."""
+        return vertices if self.vertices is None else self.vertices[vertices]
+
+    def _rotated(self, by_face: Array) -> Array:
+        """Entries (m, 3, ...) of the corners, the source's first corner first."""
+        if self.rotations is None:
+            return by_face
+        corners = (self.rotations.astype(np.intp)[:, None] + np.arange(3)) % 3
+        rotated: Array = by_face[np.arange(len(by_face))[:, None], corners]
+        return rotated
 
 
 def kept(order: OutputOrder, *, keep_order: bool, keep_rotation: bool) -> SourceOrder:

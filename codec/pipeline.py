@@ -7,19 +7,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import attributes, connectivity, lattice, metadata, positions, welding
+from ebz.codec import connectivity, lattice, metadata, positions, welding
 from ebz.codec import order as source_order
-from ebz.codec.arrays import Attributes
+from ebz.codec.arrays import Attributes, face_dtype
+from ebz.codec.attributes import coding, corners, rows
+from ebz.codec.attributes.items import Sites
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
+from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, MeshError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import GridLattice, Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
-from ebz.codec.mesh import Mesh, face_dtype
+from ebz.codec.mesh import Mesh
 from ebz.codec.order import SourceOrder
-from ebz.codec.welding import Split
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
@@ -32,6 +34,22 @@ class Decoded:
     mesh: Mesh
     word: EncodedWord
     surface: Surface
+
+
+@dataclass(frozen=True)
+class Carried:
+    """What a mesh has besides its surface, in output order."""
+
+    vertices: Attributes
+    faces: Attributes
+    corners: Attributes
+    elements: dict[str, Element]
+    metadata: dict[str, Any]
+
+
+def keeps_rotation(face_attributes: Attributes) -> bool:
+    """Whether the first corner of a face matters: several values may stand for its corners."""
+    return any(values.ndim > 1 for values in face_attributes.values())
 
 
 def encode(
@@ -52,8 +70,8 @@ def encode(
     """
     report = progress or _silent
     mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
-    if not mesh.is_triangles or mesh.corner_attributes or mesh.elements:
-        raise MeshError("only triangles with attributes of vertices and faces can be coded")
+    if not mesh.is_triangles:
+        raise MeshError("only triangles can be coded")
     if bits is not None or max_error or grid is not None:
         lattice.require_finite(mesh.vertices)
     if grid is not None:
@@ -73,10 +91,11 @@ def encode(
     stream, method = positions.encode(surface, points, stored.dtype, position_method(level))
     exact = mesh.vertices[arrangement.sites].reshape(-1)[points.exceptions]
     report("attributes", 3, N_STAGES)
-    keep_rotation = attributes.keeps_rotation(mesh.face_attributes)
+    keep_rotation = keeps_rotation(mesh.face_attributes)
     split = welding.split(surface, arrangement.splits, len(stored))
     known = source_order.Known(surface.opposite, split.vertex, points.integers[split.site])
     kept = source_order.kept(order, keep_order=keep_order, keep_rotation=keep_rotation)
+    sites = Sites(surface.opposite, split.vertex, stored[order.vertices])
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -95,11 +114,13 @@ def encode(
             exception_values=_encode_values(exact),
             order=source_order.encode(kept, known),
         ),
-        vertex_attributes=attributes.encode(mesh.vertex_attributes, order.vertices),
-        face_attributes=attributes.encode(mesh.face_attributes, order.faces),
+        vertex_attributes=coding.encode(mesh.vertex_attributes, order.vertices, sites.by_vertex),
+        face_attributes=coding.encode(mesh.face_attributes, order.faces, sites.by_face),
+        corner_attributes=corners.encode(mesh.corner_attributes, order.all_corners, sites),
+        elements=rows.encode(mesh.elements, order.number_of),
         metadata=metadata.encode(mesh.metadata),
     )
-    decoded = _restored(mesh, order, kept, split, stored[order.vertices])
+    decoded = _restored(mesh, order, kept, sites)
     report("done", N_STAGES, N_STAGES)
     return replace(encoded, digest=digest(decoded)), order
 
@@ -131,14 +152,15 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         vertices = vertices[split.site]
     report("attributes", 3, N_STAGES)
     known = source_order.Known(surface.opposite, split.vertex, integers[split.site])
-    mesh = _arranged(
-        vertices,
-        split,
-        source_order.decode(streams.order, known, place=encoded.place),
-        attributes.decode(encoded.vertex_attributes, n_vertices),
-        attributes.decode(encoded.face_attributes, counts.n_faces),
+    sites = Sites(surface.opposite, split.vertex, vertices)
+    carried = Carried(
+        coding.decode(encoded.vertex_attributes, sites.by_vertex),
+        coding.decode(encoded.face_attributes, sites.by_face),
+        corners.decode(encoded.corner_attributes, sites),
+        rows.decode(encoded.elements, n_vertices),
         _decode_metadata(encoded),
     )
+    mesh = _arranged(sites, source_order.decode(streams.order, known, place=encoded.place), carried)
     report("done", N_STAGES, N_STAGES)
     if digest(mesh) != encoded.digest:
         raise CorruptError(
@@ -175,39 +197,31 @@ def _decode_exceptions(encoded: EncodedMesh, n_vertices: int) -> npt.NDArray[np.
     return rows
 
 
-def _restored(
-    mesh: Mesh,
-    order: OutputOrder,
-    kept: SourceOrder,
-    split: Split,
-    vertices: lattice.Floats,
-) -> Mesh:
-    """The mesh as decoding will yield it; vertices: those of the output."""
-    by_vertex, by_face = mesh.vertex_attributes, mesh.face_attributes
-    return _arranged(
-        vertices,
-        split,
-        kept,
-        {name: values[order.vertices] for name, values in by_vertex.items()},
-        {name: values[order.faces] for name, values in by_face.items()},
+def _restored(mesh: Mesh, order: OutputOrder, kept: SourceOrder, sites: Sites) -> Mesh:
+    """The mesh as decoding will yield it."""
+    carried = Carried(
+        _taken(mesh.vertex_attributes, order.vertices),
+        _taken(mesh.face_attributes, order.faces),
+        _taken(mesh.corner_attributes, order.all_corners),
+        rows.renumbered(mesh.elements, order.number_of),
         mesh.metadata,
     )
+    return _arranged(sites, kept, carried)
 
 
-def _arranged(
-    vertices: lattice.Floats,
-    split: Split,
-    kept: SourceOrder,
-    vertex_attributes: Attributes,
-    face_attributes: Attributes,
-    carried: dict[str, Any],
-) -> Mesh:
+def _taken(attributes: Attributes, order: npt.NDArray[Any]) -> Attributes:
+    return {name: values[order] for name, values in attributes.items()}
+
+
+def _arranged(sites: Sites, kept: SourceOrder, carried: Carried) -> Mesh:
     """The mesh from what is in output order."""
-    faces = kept.place_corners(split.vertex.reshape(-1, 3))
+    faces = kept.place_corners(sites.vertex.reshape(-1, 3))
     return Mesh(
-        vertices=kept.place_vertices(vertices),
-        faces=faces.astype(face_dtype(len(vertices)), copy=False),
-        vertex_attributes={k: kept.place_vertices(v) for k, v in vertex_attributes.items()},
-        face_attributes={k: kept.place_faces(v) for k, v in face_attributes.items()},
-        metadata=carried,
+        vertices=kept.place_vertices(sites.vertices),
+        faces=faces.astype(face_dtype(sites.n_vertices), copy=False),
+        vertex_attributes={k: kept.place_vertices(v) for k, v in carried.vertices.items()},
+        face_attributes={k: kept.place_faces(v) for k, v in carried.faces.items()},
+        corner_attributes={k: kept.place_values(v) for k, v in carried.corners.items()},
+        elements=rows.renumbered(carried.elements, kept.source_vertices),
+        metadata=carried.metadata,
     )

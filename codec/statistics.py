@@ -1,6 +1,7 @@
 """What a compressed mesh is made of and what each part of it costs."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels
 from ebz.codec.connectivity import EncodedWord, Surface, WordModel
-from ebz.codec.encoded import EncodedMesh
+from ebz.codec.encoded import EncodedArray, EncodedMesh
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.adaptive import Effort
 
@@ -93,7 +94,10 @@ def describe(
     connectivity = _total(chunk_sizes, "word", "model", "special S", "gluing", "splits")
     geometry = _total(chunk_sizes, "positions", "exceptions")
     order = _total(chunk_sizes, "vertex order", "face order", "rotations")
-    attributes = _total(chunk_sizes, "vertex attributes", "face attributes", "metadata")
+    attributes = _total(
+        chunk_sizes,
+        *("vertex attributes", "face attributes", "corner attributes", "elements", "metadata"),
+    )
     total, raw = sum(chunk_sizes.values()), _raw_size(encoded)
     return Stats(
         vertices=n_vertices,
@@ -163,20 +167,29 @@ def _parameters(lattice: Any) -> dict[str, Any]:
 
 def _attribute_names(encoded: EncodedMesh) -> dict[str, str]:
     described = {}
-    for owner, arrays in (("vertex", encoded.vertex_attributes), ("face", encoded.face_attributes)):
+    for owner, _, arrays in _owners(encoded):
         for array in arrays:
             shape = "".join(f" x {extent}" for extent in array.shape)
             described[f"{owner} {array.name}"] = f"{array.dtype.name}{shape}"
     return described
 
 
+def _owners(encoded: EncodedMesh) -> Iterator[tuple[str, int, list[EncodedArray]]]:
+    """What has attributes, and how many entries each of them has."""
+    n_faces = encoded.counts.n_faces
+    yield "vertex", encoded.n_vertices, encoded.vertex_attributes
+    yield "face", n_faces, encoded.face_attributes
+    yield "corner", 3 * n_faces, encoded.corner_attributes
+    for element in encoded.elements:
+        yield element.name, element.n_rows, element.attributes
+        yield f"{element.name} corner", element.n_corners, element.corner_attributes
+
+
 def _raw_size(encoded: EncodedMesh) -> int:
     """Bytes of the arrays: coordinates, face indices of 4 bytes, attributes."""
     size = 3 * encoded.dtype.itemsize * encoded.n_vertices + 12 * encoded.counts.n_faces
-    for arrays, n in (
-        (encoded.vertex_attributes, encoded.n_vertices),
-        (encoded.face_attributes, encoded.counts.n_faces),
-    ):
+    size += sum(4 * element.n_corners for element in encoded.elements)
+    for _, n, arrays in _owners(encoded):
         size += sum(n * array.entry_size for array in arrays)
     return size
 

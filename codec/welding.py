@@ -48,8 +48,7 @@ def arrange(
     """The vertices of `faces` along the surface of the welded faces, in their output order."""
     if welded is faces:
         return Arrangement(surface.vertex, order.vertices, order.vertices, None)
-    corners = np.stack([order.corners, _next(order.corners), _next(_next(order.corners))], axis=1)
-    source = faces.reshape(-1)[corners.reshape(-1)]
+    source = faces.reshape(-1)[order.all_corners]
     vertex, is_first = number_by_first_use(source)
     n_sites = _n_sites(surface)
     isolated = np.ones(len(order.vertices), bool)
@@ -89,10 +88,6 @@ def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
     if n_isolated < 0:
         raise CorruptError(f"more vertices than the {n_vertices} declared")
     return Split(vertex, np.concatenate([site, n_sites + np.arange(n_isolated)]))
-
-
-def _next(corners: Int32s) -> Int32s:
-    return np.where(corners % 3 == 2, corners - 2, corners + 1)
 
 
 def _n_sites(surface: Surface) -> int:

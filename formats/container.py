@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ebz.codec.connectivity import WordCounts
-from ebz.codec.encoded import EncodedArray, EncodedMesh, EncodedText, Streams
+from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, EncodedText, Streams
 from ebz.codec.errors import CorruptError, VersionError, corrupt_at
 from ebz.codec.lattice import (
     MAX_BITS,
@@ -29,7 +29,8 @@ from ebz.formats.limits import check_declared_sizes
 # The order of chunks in a file.
 ORDER = list(layout.NAMES)
 ORDER_CHUNKS = (layout.VERTEX_ORDER, layout.FACE_ORDER, layout.ROTATIONS)
-REPEATED = {layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE}
+ATTRIBUTES = (layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE, layout.CORNER_ATTRIBUTE)
+REPEATED = {*ATTRIBUTES, layout.ELEMENT}
 MAX_COUNT = 2**63
 
 
@@ -56,10 +57,10 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
         (layout.ROTATIONS, streams.order.rotations),
     ]
     parts += [chunks.write(kind, payload) for kind, payload in optional if payload]
-    for array in encoded.vertex_attributes:
-        parts.append(chunks.write(layout.VERTEX_ATTRIBUTE, records.attribute(array)))
-    for array in encoded.face_attributes:
-        parts.append(chunks.write(layout.FACE_ATTRIBUTE, records.attribute(array)))
+    carried = encoded.vertex_attributes, encoded.face_attributes, encoded.corner_attributes
+    for kind, arrays in zip(ATTRIBUTES, carried, strict=True):
+        parts += [chunks.write(kind, records.attribute(array)) for array in arrays]
+    parts += [chunks.write(layout.ELEMENT, records.element(rows)) for rows in encoded.elements]
     if encoded.metadata:
         text = layout.build(layout.Text, vars(encoded.metadata))
         parts.append(chunks.write(layout.METADATA, text))
@@ -82,17 +83,23 @@ def read(data: memoryview, *, memory_limit: int) -> EncodedMesh:
     Raises NotEbzError, VersionError, TruncatedError, CorruptError or MemoryLimitError.
     """
     found: dict[bytes, Chunk] = {}
-    arrays: dict[bytes, list[EncodedArray]] = {kind: [] for kind in REPEATED}
+    arrays: dict[bytes, list[EncodedArray]] = {kind: [] for kind in ATTRIBUTES}
+    elements: list[EncodedElement] = []
     for chunk in _in_order(data):
         found[chunk.type] = chunk
-        if chunk.type in REPEATED:
-            array = records.parse_attribute(chunk)
-            if any(array.name == other.name for other in arrays[chunk.type]):
-                raise CorruptError(f"{chunk.where}: there is a {array.name!r} already")
-            arrays[chunk.type].append(array)
-    encoded = _parse(found, arrays)
+        if chunk.type in ATTRIBUTES:
+            _append(arrays[chunk.type], records.parse_attribute(chunk), chunk)
+        elif chunk.type == layout.ELEMENT:
+            _append(elements, records.parse_element(chunk), chunk)
+    encoded = _parse(found, arrays, elements)
     check_declared_sizes(encoded, len(data), memory_limit)
     return encoded
+
+
+def _append(parts: list[Any], part: EncodedArray | EncodedElement, chunk: Chunk) -> None:
+    with corrupt_at(chunk.where):
+        records.check_name(part.name, [other.name for other in parts])
+    parts.append(part)
 
 
 def _in_order(data: memoryview) -> Iterator[Chunk]:
@@ -116,7 +123,11 @@ def _check_order(last: Chunk, chunk: Chunk) -> None:
         raise CorruptError(f"{chunk.where}: it must come before {last.where}")
 
 
-def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -> EncodedMesh:
+def _parse(
+    found: dict[bytes, Chunk],
+    arrays: dict[bytes, list[EncodedArray]],
+    elements: list[EncodedElement],
+) -> EncodedMesh:
     with corrupt_at(found[layout.HEADER].where):
         header = layout.parse(layout.Header, found[layout.HEADER].payload)
         _check_header(header)
@@ -153,6 +164,8 @@ def _parse(found: dict[bytes, Chunk], arrays: dict[bytes, list[EncodedArray]]) -
         ),
         vertex_attributes=arrays[layout.VERTEX_ATTRIBUTE],
         face_attributes=arrays[layout.FACE_ATTRIBUTE],
+        corner_attributes=arrays[layout.CORNER_ATTRIBUTE],
+        elements=elements,
         metadata=_text(found.get(layout.METADATA)),
         digest=payload(layout.END),
         places=places,

@@ -35,13 +35,14 @@ from ebz.codec.models.table import MAX_STATES
 Malformed = ConstructError
 
 MAGIC = b"\x89EBZ\r\n\x1a\n"
-VERSION = 1
+VERSION = 2
 
 # Chunk types: upper case is required to decode, a reader skips what it does not know in lower case.
 HEADER, MODEL, WORD, SPECIALS, GLUING = b"H", b"M", b"W", b"S", b"G"
 SPLITS, POSITIONS, EXCEPTIONS = b"I", b"P", b"X"
 VERTEX_ORDER, FACE_ORDER, ROTATIONS = b"N", b"O", b"R"
-VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, METADATA, END = b"V", b"F", b"D", b"Z"
+VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, CORNER_ATTRIBUTE, ELEMENT = b"V", b"F", b"C", b"E"
+METADATA, END = b"D", b"Z"
 
 NAMES = {
     HEADER: "header",
@@ -57,6 +58,8 @@ NAMES = {
     ROTATIONS: "rotations",
     VERTEX_ATTRIBUTE: "vertex attributes",
     FACE_ATTRIBUTE: "face attributes",
+    CORNER_ATTRIBUTE: "corner attributes",
+    ELEMENT: "elements",
     METADATA: "metadata",
     END: "digest",
 }
@@ -157,7 +160,21 @@ Attribute = Struct(
     "kind" / Bytes(1),  # b, i, u, f as in numpy
     "itemsize" / Byte,
     "shape" / PrefixedArray(Byte, VarInt),  # of one entry
+    "seams" / Prefixed(VarInt, GreedyBytes),
     "data" / GreedyBytes,
+)
+
+Nested = Prefixed(VarInt, Attribute)
+
+Element = Struct(
+    "name" / Prefixed(VarInt, GreedyBytes),
+    "n_rows" / VarInt,
+    "n_corners" / VarInt,
+    "lengths" / PrefixedArray(Byte, Nested),  # one or none
+    "corners" / Nested,
+    "attributes" / PrefixedArray(VarInt, Nested),
+    "corner_attributes" / PrefixedArray(VarInt, Nested),
+    Terminated,
 )
 
 

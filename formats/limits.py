@@ -2,7 +2,7 @@
 
 import math
 
-from ebz.codec.encoded import EncodedArray, EncodedMesh
+from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh
 from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
@@ -23,6 +23,8 @@ BYTES_PER_FACE = 160
 BYTES_PER_VERTEX = 160
 BYTES_PER_INTEGER = 128
 BYTES_PER_CHARACTER = 32
+BYTES_PER_CORNER = 48  # the wedges of an attribute of corners
+BYTES_PER_ROW = 32
 
 
 def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) -> None:
@@ -45,6 +47,12 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
     size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
     size += _arrays_size(encoded.face_attributes, counts.n_faces)
+    size += sum(_elements_size(element) for element in encoded.elements)
+    # What is at a vertex may be one value: only decoding tells.
+    n_corners = 3 * counts.n_faces
+    size += sum(
+        n_corners * (3 * array.entry_size + BYTES_PER_CORNER) for array in encoded.corner_attributes
+    )
     size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices
     size += BYTES_PER_CHARACTER * n_text
     size += BYTES_PER_INTEGER * n_integers + 2 * n_bytes
@@ -79,6 +87,15 @@ def _check(what: str, count: int, bits_each: float, stream: bytes) -> None:
     available = 8 * len(stream) + SLACK_BITS if stream else 0
     if count * bits_each > available * (1 + 1e-9):
         raise CorruptError(f"{count} {what} do not fit in {len(stream)} bytes")
+
+
+def _elements_size(element: EncodedElement) -> int:
+    width = element.corners.shape[0]
+    lengths = [element.lengths] if element.lengths else []
+    size = _arrays_size([*lengths, *element.attributes], element.n_rows)
+    size += _arrays_size([element.corners], -(-element.n_corners // width))
+    size += _arrays_size(element.corner_attributes, element.n_corners)
+    return size + BYTES_PER_ROW * (element.n_rows + element.n_corners)
 
 
 def _arrays_size(arrays: list[EncodedArray], n: int) -> int:

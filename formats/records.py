@@ -1,4 +1,4 @@
-"""Attributes <-> the payloads of their chunks, which describe themselves."""
+"""Attributes and elements <-> the payloads of their chunks, which describe themselves."""
 
 import math
 from typing import Any
@@ -6,42 +6,111 @@ from typing import Any
 import numpy as np
 
 from ebz.codec.arrays import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
-from ebz.codec.encoded import EncodedArray
+from ebz.codec.encoded import EncodedArray, EncodedElement
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.formats import layout
 from ebz.formats.chunks import Chunk
 
 # Longer floats exist on some machines only.
 MAX_ITEMSIZE = 8
+MAX_COUNT = 2**63
 
 
 def attribute(array: EncodedArray) -> bytes:
     """The payload of an attribute chunk."""
-    return layout.build(
-        layout.Attribute,
-        {
-            "name": array.name.encode("utf-8", "surrogatepass"),
-            "kind": array.dtype.kind.encode(),
-            "itemsize": array.dtype.itemsize,
-            "shape": array.shape,
-            "data": array.data,
-        },
-    )
+    return layout.build(layout.Attribute, _attribute(array))
 
 
 def parse_attribute(chunk: Chunk) -> EncodedArray:
     """The attribute of a chunk; raises CorruptError."""
     with corrupt_at(chunk.where):
-        parsed = layout.parse(layout.Attribute, chunk.payload)
-        dtype = _parse_dtype(parsed)
-        shape = tuple(parsed.shape)
-        if len(shape) >= MAX_DIMENSIONS or math.prod(filter(None, shape)) >= MAX_ENTRY:
-            raise CorruptError(f"an attribute of shape {shape}")
-        try:
-            name = parsed.name.decode("utf-8", "surrogatepass")
-        except UnicodeDecodeError as error:
-            raise CorruptError(f"name: {error}") from None
-    return EncodedArray(name, dtype, shape, parsed.data, chunk.where)
+        return _parse_attribute(layout.parse(layout.Attribute, chunk.payload), chunk.where)
+
+
+def element(rows: EncodedElement) -> bytes:
+    """The payload of an element's chunk."""
+    return layout.build(
+        layout.Element,
+        {
+            "name": _to_bytes(rows.name),
+            "n_rows": rows.n_rows,
+            "n_corners": rows.n_corners,
+            "lengths": [_attribute(rows.lengths)] if rows.lengths else [],
+            "corners": _attribute(rows.corners),
+            "attributes": [_attribute(array) for array in rows.attributes],
+            "corner_attributes": [_attribute(array) for array in rows.corner_attributes],
+        },
+    )
+
+
+def parse_element(chunk: Chunk) -> EncodedElement:
+    """The element of a chunk; raises CorruptError."""
+    where = chunk.where
+    with corrupt_at(where):
+        parsed = layout.parse(layout.Element, chunk.payload)
+        if max(parsed.n_rows, parsed.n_corners) >= MAX_COUNT or len(parsed.lengths) > 1:
+            raise CorruptError("more rows or corners than there can be")
+        lengths = [_parse_attribute(array, where) for array in parsed.lengths]
+        return EncodedElement(
+            name=_parse_name(parsed.name),
+            n_rows=parsed.n_rows,
+            n_corners=parsed.n_corners,
+            lengths=_of_integers(lengths[0], np.dtype(np.int64), 0) if lengths else None,
+            corners=_of_integers(_parse_attribute(parsed.corners, where), np.dtype(np.int32), 1),
+            attributes=_parse_all(parsed.attributes, where),
+            corner_attributes=_parse_all(parsed.corner_attributes, where),
+            place=where,
+        )
+
+
+def check_name(name: str, others: list[str]) -> None:
+    """Raise CorruptError where a name is there already."""
+    if name in others:
+        raise CorruptError(f"there is a {name!r} already")
+
+
+def _attribute(array: EncodedArray) -> dict[str, Any]:
+    return {
+        "name": _to_bytes(array.name),
+        "kind": array.dtype.kind.encode(),
+        "itemsize": array.dtype.itemsize,
+        "shape": array.shape,
+        "seams": array.seams,
+        "data": array.data,
+    }
+
+
+def _parse_attribute(parsed: Any, where: str) -> EncodedArray:
+    dtype, shape = _parse_dtype(parsed), tuple(parsed.shape)
+    if len(shape) >= MAX_DIMENSIONS or math.prod(filter(None, shape)) >= MAX_ENTRY:
+        raise CorruptError(f"an attribute of shape {shape}")
+    return EncodedArray(_parse_name(parsed.name), dtype, shape, parsed.data, parsed.seams, where)
+
+
+def _parse_all(parsed: list[Any], where: str) -> list[EncodedArray]:
+    arrays: list[EncodedArray] = []
+    for one in parsed:
+        array = _parse_attribute(one, where)
+        check_name(array.name, [other.name for other in arrays])
+        arrays.append(array)
+    return arrays
+
+
+def _of_integers(array: EncodedArray, dtype: np.dtype[Any], n_dimensions: int) -> EncodedArray:
+    if array.dtype != dtype or len(array.shape) != n_dimensions or 0 in array.shape:
+        raise CorruptError(f"corners or lengths of {array.dtype} by {array.shape}")
+    return array
+
+
+def _to_bytes(name: str) -> bytes:
+    return name.encode("utf-8", "surrogatepass")
+
+
+def _parse_name(name: bytes) -> str:
+    try:
+        return name.decode("utf-8", "surrogatepass")
+    except UnicodeDecodeError as error:
+        raise CorruptError(f"name: {error}") from None
 
 
 def _parse_dtype(parsed: Any) -> np.dtype[Any]:

@@ -23,8 +23,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec.arrays import face_dtype
 from ebz.codec.errors import MeshError
-from ebz.codec.mesh import Mesh, face_dtype
+from ebz.codec.mesh import Mesh
 from ebz.formats.detect import is_binary_stl
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import narrowed, parse_floats, shown

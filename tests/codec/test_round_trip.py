@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import ebz
 from ebz.codec.models.table import table_names
-from ebz.codec.sample import random_triangulation
+from ebz.codec.sample import random_triangulation, torus
 from tests import surgery
 from tests.connectivity_check import same_mesh, same_under
 from tests.meshes import attributes, meshes, rngs
@@ -143,3 +143,71 @@ def test_faces_that_no_longer_fit_are_refused():
     mesh.faces[0, 1] = 1_000_000
     with pytest.raises(ebz.MeshError, match="face 0: vertex 1000000 is out of range"):
         ebz.compress(mesh)
+
+
+def carrying(n_columns: int = 2) -> ebz.Mesh:
+    """A torus with a seam in its corner attribute, and elements of every kind."""
+    mesh = torus(400)
+    corners = mesh.faces.reshape(-1)
+    uv = (mesh.vertices[corners, :n_columns] * 1000).round().astype(np.float32) / 1000
+    uv[corners % 40 == 0] += (np.arange(len(uv)) % 2)[corners % 40 == 0, None]
+    rng = np.random.default_rng(1)
+    pairs, path = rng.integers(0, len(mesh.vertices), 20), rng.integers(0, 9, 7)
+    elements = {
+        "edge": ebz.Element(np.arange(0, 21, 2), pairs, {"w": np.arange(10.0)}, {"q": pairs}),
+        "line": ebz.Element(np.array([0, 3, 3, 7]), path),
+        "camera": ebz.Element(np.zeros(3, int), attributes={"x": np.eye(2)}),
+        "none": ebz.Element(np.zeros(1, int), attributes={"x": np.zeros((0, 2))}),
+    }
+    return ebz.Mesh(
+        mesh.vertices, mesh.faces, corner_attributes={"uv": uv, "": uv > 0}, elements=elements
+    )
+
+
+def test_corner_attributes_and_elements_come_back_in_order():
+    mesh = carrying()
+    decoded = ebz.decompress(ebz.compress(mesh, keep_order=True))
+    assert decoded.corner_attributes.keys() == mesh.corner_attributes.keys()
+    for name, values in mesh.corner_attributes.items():
+        assert decoded.corner_attributes[name].tobytes() == values.tobytes()
+        assert decoded.corner_attributes[name].dtype == values.dtype
+    assert list(decoded.elements) == list(mesh.elements)
+    for name, element in mesh.elements.items():
+        other = decoded.elements[name]
+        assert np.array_equal(other.offsets, element.offsets)
+        assert np.array_equal(other.corners, element.corners)
+        for kind in ("attributes", "corner_attributes"):
+            ours, theirs = getattr(other, kind), getattr(element, kind)
+            assert {k: v.tolist() for k, v in ours.items()} == {
+                k: v.tolist() for k, v in theirs.items()
+            }
+
+
+@pytest.mark.parametrize("level", [1, 6])
+def test_corner_attributes_and_elements_follow_vertices_and_faces(level):
+    mesh = carrying()
+    data, permutation = ebz.compress(mesh, level=level, return_permutation=True)
+    decoded = ebz.decompress(data)
+    assert ebz.compress(decoded, level=level) == data
+    for name, element in mesh.elements.items():
+        corners = permutation.vertices[decoded.elements[name].corners]
+        assert np.array_equal(corners, element.corners)
+    source = {
+        (int(vertex), int(face)): uv.tobytes()
+        for face, row in enumerate(mesh.faces)
+        for vertex, uv in zip(row, mesh.corner_attributes["uv"][3 * face :][:3], strict=True)
+    }
+    faces = permutation.faces[np.arange(len(decoded.faces))]
+    corners = zip(permutation.vertices[decoded.faces].reshape(-1), faces.repeat(3), strict=True)
+    got = decoded.corner_attributes["uv"]
+    assert {key: uv.tobytes() for key, uv in zip(corners, got, strict=True)} == source
+
+
+def test_equal_values_at_a_vertex_are_stored_once():
+    mesh = torus(2000)
+    values = np.random.default_rng(1).random((len(mesh.vertices), 2))
+    by_corner = ebz.Mesh(
+        mesh.vertices, mesh.faces, corner_attributes={"uv": values[mesh.faces.reshape(-1)]}
+    )
+    by_vertex = ebz.Mesh(mesh.vertices, mesh.faces, {"uv": values})
+    assert len(ebz.compress(by_corner)) == len(ebz.compress(by_vertex))

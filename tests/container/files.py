@@ -5,6 +5,7 @@ import zlib
 import numpy as np
 
 import ebz
+from ebz.codec.elements import Element
 from ebz.codec.sample import glued_grid
 from tests import surgery
 from tests.data.golden import seam
@@ -38,6 +39,12 @@ def rich_mesh() -> ebz.Mesh:
         },
         {"corner": faces.astype(np.int16), "label": np.arange(len(faces), dtype=np.int16) % 5},
         {"format": "ply", "raw": b"\0\xff", "n": [1, None, 2.5]},
+        corner_attributes={"s": (faces % 5).reshape(-1) / 4},
+        elements={
+            "edge": Element(np.arange(0, 13, 2), np.arange(12) * 5 % n, {"w": np.arange(6)}),
+            "line": Element(np.array([0, 3, 3, 5]), np.arange(5), {}, {"t": np.arange(5) / 8}),
+            "camera": Element(np.zeros(2, int), attributes={"matrix": np.eye(4)[None]}),
+        },
     )
 
 
@@ -95,7 +102,7 @@ def split(data: bytes) -> Chunks:
 
 def join(chunks: Chunks) -> bytes:
     """The file, its checksums right."""
-    data = b"\x89EBZ\r\n\x1a\n\x01"
+    data = b"\x89EBZ\r\n\x1a\n\x02"
     for kind, payload in chunks:
         body = kind + varint(len(payload)) + payload
         data += body + zlib.crc32(body).to_bytes(4, "little")
@@ -133,4 +140,4 @@ def with_header(data: bytes, **changes: int) -> bytes:
 def attribute(name: bytes, kind: bytes, itemsize: int, shape: list[int], data: bytes) -> bytes:
     """The payload of an attribute chunk."""
     head = varint(len(name)) + name + kind + bytes([itemsize, len(shape)])
-    return head + b"".join(map(varint, shape)) + data
+    return head + b"".join(map(varint, shape)) + varint(0) + data

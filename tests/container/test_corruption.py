@@ -37,6 +37,10 @@ every_file = pytest.mark.parametrize("name", FILES)
 
 def arrays(mesh: ebz.Mesh) -> list:
     named = [*mesh.vertex_attributes.items(), *mesh.face_attributes.items()]
+    named += mesh.corner_attributes.items()
+    for name, element in mesh.elements.items():
+        named += [(name, element.offsets), (name, element.corners)]
+        named += [*element.attributes.items(), *element.corner_attributes.items()]
     columns = [("", mesh.vertices), ("", mesh.faces), *named]
     return [(name, a.dtype, a.shape, a.tobytes()) for name, a in columns] + [mesh.metadata]
 
@@ -65,7 +69,7 @@ def error_or_same(data: bytes, name: str) -> None:
 
 def test_the_files_have_every_kind_of_chunk():
     found = {kind for data in FILES.values() for kind, _ in split(data)}
-    assert found == {bytes([letter]) for letter in b"HMWSGIPXNORVFDZ"}
+    assert found == {bytes([letter]) for letter in b"HMWSGIPXNORVFCEDZ"}
     assert {read_header(data)[0]["lattice"] for data in FILES.values()} == {0, 1, 2, 3, 4}
 
 
@@ -107,7 +111,7 @@ def test_an_extra_byte_at_the_end_is_noticed(name):
     assert message in error(FILES[name] + b"\0", ebz.CorruptError)
 
 
-@pytest.mark.parametrize("version", [0, 2, 255])
+@pytest.mark.parametrize("version", [0, 1, 255])
 def test_other_versions_are_refused(version):
     data = bytearray(FILES["everything"])
     data[START - 1] = version
@@ -140,7 +144,7 @@ def test_missing_chunks_are_noticed(name):
 
 def test_chunks_that_the_header_has_no_use_for_are_corrupt():
     everything = split(FILES["everything"]) + split(FILES["stack"])
-    order = b"HMWSGIPXNORVFDZ"
+    order = b"HMWSGIPXNORVFCEDZ"
     chunks = split(FILES["empty"])
     for kind, payload in everything:
         if kind in b"MWSGPX":
@@ -265,7 +269,7 @@ SHAPES = [
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: str(shape)[:40])
-@pytest.mark.parametrize("kind", [b"V", b"F"])
+@pytest.mark.parametrize("kind", [b"V", b"F", b"C"])
 def test_attributes_of_absurd_shape_are_refused(kind, shape):
     payload = attribute(b"a", b"f", 8, shape, b"\0" * 20)
     error(with_payload(FILES["everything"], kind, payload), ebz.CorruptError)

@@ -1,0 +1,1 @@
+"""What a mesh carries by name <-> streams, entries in output order."""

@@ -1,0 +1,56 @@
+"""Attributes of corners: which corners at a vertex share a value (its wedges), and the values."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ebz.codec import _kernels
+from ebz.codec.arrays import Attributes
+from ebz.codec.attributes import coding
+from ebz.codec.attributes.items import Items, Sites
+from ebz.codec.connectivity import Int32s, number_by_first_use
+from ebz.codec.encoded import EncodedArray
+from ebz.codec.errors import corrupt_at
+
+
+def encode(attributes: Attributes, order: npt.NDArray[Any], sites: Sites) -> list[EncodedArray]:
+    """A stream per attribute; `order` gives the source corner of each corner of the output."""
+    return [_encode(name, values[order], sites) for name, values in attributes.items()]
+
+
+def decode(arrays: list[EncodedArray], sites: Sites) -> Attributes:
+    """The attributes of the 3m corners of the output; raises CorruptError."""
+    return {array.name: _decode(array, sites) for array in arrays}
+
+
+def _encode(name: str, values: npt.NDArray[Any], sites: Sites) -> EncodedArray:
+    wedge, is_first = _wedges(values, sites.vertex)
+    seams = b""
+    if int(wedge.max(initial=-1)) != int(sites.vertex.max(initial=-1)):
+        seams = _kernels.encode_splits(sites.opposite, sites.vertex, sites.n_vertices, wedge)
+    array = coding.encode_array(name, values[is_first], _items(wedge, sites))
+    return replace(array, seams=seams)
+
+
+def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:
+    wedge = number_by_first_use(sites.vertex)[0]
+    if array.seams:
+        data = np.frombuffer(array.seams, np.uint8)
+        with corrupt_at(array.place):
+            wedge = _kernels.decode_splits(data, sites.opposite, sites.vertex, sites.n_vertices)
+    return coding.decode_array(array, _items(wedge, sites))[wedge]
+
+
+def _items(wedge: Int32s, sites: Sites) -> Items:
+    return sites.by_wedge(wedge, int(wedge.max(initial=-1)) + 1)
+
+
+def _wedges(values: npt.NDArray[Any], vertex: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
+    """The wedge of each corner, numbered by first use, and which corners are the first of one."""
+    entries = np.ascontiguousarray(values).reshape(len(values), -1)
+    keys = entries.view(np.uint8).reshape(len(values), -1)
+    columns = np.concatenate([np.ascontiguousarray(vertex)[:, None].view(np.uint8), keys], axis=1)
+    rows = np.ascontiguousarray(columns).view(np.dtype((np.void, columns.shape[1])))[:, 0]
+    return number_by_first_use(np.unique(rows, return_inverse=True)[1].astype(np.int32))
