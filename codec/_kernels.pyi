@@ -47,6 +47,11 @@ def decode_adaptive(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), or
     What decode_connectivity gives and the specials, of a word under an adaptive model.
     """
 
+def forbid_extensions(forbidden: bool) -> None:
+    """
+    Take the baseline instructions on every machine, or no more; for tests.
+    """
+
 def encode_positions(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int, values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], method: int) -> bytes:
     """The bytes of 3n lattice values along a surface."""
 

@@ -9,6 +9,7 @@
 #include "byte_planes.hpp"
 #include "connectivity.hpp"
 #include "errors.hpp"
+#include "instructions.hpp"
 #include "integers.hpp"
 #include "lattices.hpp"
 #include "order/permutations.hpp"
@@ -334,6 +335,8 @@ NB_MODULE(_kernels, m) {
     m.def("decode_adaptive", &decode_adaptive, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
           "n_specials"_a, "effort"_a,
           "What decode_connectivity gives and the specials, of a word under an adaptive model.");
+    m.def("forbid_extensions", &ebz::forbid_extensions, "forbidden"_a,
+          "Take the baseline instructions on every machine, or no more; for tests.");
     m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
           "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lanes.hpp"
 #include "float_logistic.hpp"
+#include "lanes.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 // The probability of a 1 in the upper 22 bits, the count, at most 31, in the lower 10.
 using CounterState = uint32_t;
@@ -18,27 +19,36 @@ namespace counter {
 inline constexpr int32_t max_n = 31;
 inline constexpr CounterState unseen = 1u << 31;
 
-// Four counters at a time.
-inline IntLanes n(IntLanes state) { return state & 1023; }
-inline Lanes p(IntLanes state) {  // in units of 2^-22
-    return __builtin_convertvector((state >> 10) & 0x3fffff, Lanes);
+// Several counters at a time.
+template <class Ints>
+Ints n(Ints state) {
+    return state & 1023;
+}
+
+template <class Floats>
+Floats p(IntsOf<Floats> state) {  // in units of 2^-22
+    return __builtin_convertvector((state >> 10) & 0x3fffff, Floats);
 }
 
 // Logit, shrunk while few bits have been seen: by n / (n + 1.5).
-inline Lanes opinion(IntLanes state) {
-    const Lanes seen = __builtin_convertvector(n(state), Lanes), one = p(state) + 0.5f;
+template <class Floats>
+Floats opinion(IntsOf<Floats> state) {
+    const Floats seen = __builtin_convertvector(n(state), Floats), one = p<Floats>(state) + 0.5f;
     return (log2_approx(one) - log2_approx(4194304.5f - one)) * (seen / (seen + 1.5f));
 }
 
-// An unseen context starts from what the others expect (in units of 2^-22).
-inline IntLanes updated(IntLanes state, bool bit, float expected) {
-    const IntLanes seen = n(state);
-    const Lanes old = seen == 0 ? splat(expected) : p(state);
-    const Lanes target = splat(bit ? 4194303.0f : 0.0f);
-    const Lanes now = old + (target - old) / (__builtin_convertvector(seen, Lanes) + 1.6f);
-    const IntLanes next = seen < max_n ? seen + 1 : seen;
-    return __builtin_convertvector(now, IntLanes) << 10 | next;
+// After a bit in each lane, told by its target; an unseen context starts from what is expected (in units of 2^-22).
+template <class Floats>
+IntsOf<Floats> updated(IntsOf<Floats> state, Floats target, Floats expected) {
+    const IntsOf<Floats> seen = n(state);
+    const Floats old = seen == 0 ? expected : p<Floats>(state);
+    const Floats now = old + (target - old) / (__builtin_convertvector(seen, Floats) + 1.6f);
+    const IntsOf<Floats> next = seen < max_n ? seen + 1 : seen;
+    return __builtin_convertvector(now, IntsOf<Floats>) << 10 | next;
 }
+
+// The target of a bit.
+inline constexpr float certain = 4194303.0f;
 
 }  // namespace counter
 
@@ -51,7 +61,7 @@ public:
     void update(bool bit, uint32_t expected16) {
         const uint32_t n_seen = n();
         const float old = static_cast<float>(n_seen == 0 ? expected16 << 6 : state_ >> 10);
-        const float now = old + ((bit ? 4194303.0f : 0.0f) - old) * rates[n_seen];
+        const float now = old + ((bit ? counter::certain : 0.0f) - old) * rates[n_seen];
         const uint32_t n_now = n_seen < counter::max_n ? n_seen + 1 : n_seen;
         state_ = static_cast<uint32_t>(static_cast<int32_t>(now)) << 10 | n_now;
     }
@@ -66,4 +76,5 @@ private:
     CounterState state_ = counter::unseen;
 };
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

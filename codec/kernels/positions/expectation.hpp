@@ -1,58 +1,26 @@
-// From the prediction of a vertex to what is expected of each coordinate, given those coded before it.
+// What is known about one coordinate before it is coded; values are relative to its base.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "prediction.hpp"
-#include "recall.hpp"
-#include "residual_model.hpp"
-#include "surroundings.hpp"
-#include "wrapping.hpp"
-
 namespace ebz::positions {
 
-// The three axes of one vertex, in the order p.axes.
-class Axes {
-public:
-    explicit Axes(const Predictor& predictor) : predictor_(predictor) {}
+struct Expectation {
+    static constexpr size_t n_distributions = 7, n_contexts = 8, n_values = 8;
+    static constexpr int max_class = 44;  // coordinates and predictions of magnitude 2^40 stay below
 
-    void begin(const Surroundings& s, const Prediction& p);
-    void expect(size_t turn, Expectation& x);
-    void reveal(size_t turn, int64_t residual);
-
-    int64_t base(size_t d) const { return wrapping_sum(s_->origin[d], base_[d]); }
-    const Offset& residuals() const { return residual_; }
-
-private:
-    // Offsets from the base at which the value would equal a neighbour's: the nearest two.
-    struct Nearest {
-        int64_t first, second;
-        bool has_second;
-    };
-
-    void set_distributions(size_t d, Expectation& x) const;
-    void set_sizes(size_t d, Expectation& x) const;
-    Nearest nearest(size_t d) const;
-    void set_values(size_t turn, const Nearest& near, Expectation& x);
-    void set_recalled(size_t turn, Expectation& x);
-    void set_contexts(size_t turn, const Nearest& near, Expectation& x) const;
-    uint32_t agreement(size_t turn, const Offset& at) const;
-    uint32_t exactness(size_t d) const;
-    uint32_t codes(size_t neighbour) const;
-    int64_t value(size_t d) const { return wrapping_sum(s_->origin[d], value_[d]); }
-
-    const Predictor& predictor_;
-    const Surroundings* s_ = nullptr;
-    const Prediction* p_ = nullptr;
-    Recall residual_recall_{14}, value_recall_{14};
-    uint32_t residual_key_ = 0, value_key_ = 0;
-
-    Point plain_mean_{}, refined_mean_{};  // shifted by what earlier axes revealed
-    std::array<std::array<double, 3>, 3> covariance_{};
-    Offset base_{}, residual_{}, value_{};  // base and value are relative to the surroundings' origin
-    int64_t first_residual_ = 0, last_residual_ = 0;
+    alignas(32) std::array<float, n_distributions + 1> mean;   // the last is not used
+    alignas(32) std::array<float, n_distributions + 1> scale;  // of logistic distributions
+    std::array<uint32_t, n_contexts> context;         // hashed
+    std::array<int64_t, n_values> value;              // exact values seen nearby
+    std::array<uint8_t, n_values> value_context;      // < 64, 0 where there is no value
+    unsigned values;                                  // bit i: value[i] holds
+    size_t turn;                                      // 0, 1, 2: how many axes came before
+    int level;                                        // half-octaves of the expected size, after the shift
+    int shift;                                        // of the classes, for sizes beyond all contexts
+    int expected_class;
 };
 
 }  // namespace ebz::positions

@@ -10,7 +10,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "../instruction_set.hpp"
+
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 static_assert(FLT_EVAL_METHOD == 0, "excess precision would change the stream");
 
@@ -43,4 +46,5 @@ inline constexpr auto logits = [] {
     return table;
 }();
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

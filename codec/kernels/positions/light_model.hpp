@@ -26,7 +26,7 @@ public:
     LightModel() {
         for (auto& slots : slots_)
             for (auto& s : slots) s.fill(counter::unseen);
-        weights_.fill(splat(0.35f));
+        weights_.fill(splat<Lanes>(0.35f));
     }
 
     template <class Coder>
@@ -61,13 +61,14 @@ private:
     bool decide(Coder& coder, size_t slot, bool bit) {
         const auto at = [&](size_t i) { return static_cast<int32_t>((*active_[i])[slot]); };
         const IntLanes states = {at(0), at(1), at(2), at(3)};
-        const Lanes opinions = counter::opinion(states);
+        const Lanes opinions = counter::opinion<Lanes>(states);
         Lanes& weights = weights_[slot];
         const float probability = squash(clamp(sum(weights * opinions), -20.0f, 20.0f));
         const auto p = static_cast<uint32_t>(std::clamp(static_cast<int32_t>(probability * 65536.0f), 1, 65535));
         bit = coder.bit(bit, p);
         weights += opinions * (((bit ? 1.0f : 0.0f) - probability) * learning_rate);
-        const IntLanes next = counter::updated(states, bit, probability * 4194303.0f);
+        const Lanes target = splat<Lanes>(bit ? counter::certain : 0.0f);
+        const IntLanes next = counter::updated(states, target, splat<Lanes>(probability * counter::certain));
         for (size_t i = 0; i < n_contexts; ++i) (*active_[i])[slot] = static_cast<CounterState>(next[i]);
         return bit;
     }

@@ -8,36 +8,40 @@
 #include <cstdint>
 #include <vector>
 
-#include "lanes.hpp"
 #include "float_logistic.hpp"
+#include "lanes.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 template <size_t n_lanes>
 class Mixer {
 public:
-    using Inputs = std::array<Lanes, n_lanes>;
+    // Aligned for every instruction set: without AVX, GCC takes less for wide vectors.
+    struct alignas(32) Inputs {
+        std::array<WideLanes, n_lanes> lanes;
+        WideLanes& operator[](size_t i) { return lanes[i]; }
+        const WideLanes& operator[](size_t i) const { return lanes[i]; }
+    };
 
     Mixer(size_t n_sets_a, size_t n_sets_b) : a_(n_sets_a, Inputs{}), b_(n_sets_b, Inputs{}) {}
 
-    template <size_t n>
-    void start(size_t set_a, const std::array<float, n>& weights) {
-        static_assert(n <= 4 * n_lanes);
-        for (size_t i = 0; i < n; ++i) a_[set_a][i / 4][i % 4] = weights[i];
+    void start(size_t set_a, const std::array<float, 8 * n_lanes>& weights) {
+        for (size_t i = 0; i < weights.size(); ++i) a_[set_a][i / 8][i % 8] = weights[i];
     }
 
     // The logit of the bit being 1.
     float mix(const Inputs& x, size_t set_a, size_t set_b) {
         active_a_ = &a_[set_a];
         active_b_ = &b_[set_b];
-        Lanes total{};
+        WideLanes total{};
         for (size_t i = 0; i < n_lanes; ++i) total += ((*active_a_)[i] + (*active_b_)[i]) * x[i];
-        return clamp(sum(total), -20.0f, 20.0f);
+        return clamp(sum(total), -16.0f, 16.0f);
     }
 
     void update(const Inputs& x, float change) {
         for (size_t i = 0; i < n_lanes; ++i) {
-            const Lanes step = change * x[i];
+            const WideLanes step = change * x[i];
             (*active_a_)[i] += step;
             (*active_b_)[i] += step;
         }
@@ -47,6 +51,15 @@ private:
     std::vector<Inputs> a_, b_;
     Inputs *active_a_ = nullptr, *active_b_ = nullptr;
 };
+
+// Of logits within 2^-6: nearer ones would gain less than 2^-15 bits.
+inline constexpr auto probabilities = [] {
+    std::array<float, 1025> table{};
+    for (size_t i = 0; i < table.size(); ++i) table[i] = squash((static_cast<float>(i) - 512.0f) * (1.0f / 32.0f));
+    return table;
+}();
+
+inline float probability(float logit) { return probabilities[static_cast<size_t>(static_cast<int32_t>(logit * 32.0f + 512.5f))]; }
 
 // Secondary estimation: a curve of 33 knots over the logit per context, adapted to what happened.
 class Curve {
@@ -76,4 +89,5 @@ private:
     float part_ = 0;
 };
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

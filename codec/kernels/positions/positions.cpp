@@ -5,7 +5,7 @@
 #include "fast_coder.hpp"
 #include "float_coder.hpp"
 #include "light_coder.hpp"
-#include "strong_coder.hpp"
+#include "strong.hpp"
 
 namespace ebz::positions {
 

@@ -18,6 +18,8 @@ public:
 
     explicit Recall(int log2_entries) : shift_(32 - log2_entries), entries_(size_t{1} << log2_entries) {}
 
+    void prefetch(uint32_t key) const { __builtin_prefetch(&entries_[key >> shift_], 1); }
+
     // Null if these circumstances are new.
     const Entry* find(uint32_t key) const {
         const Entry& e = entries_[key >> shift_];

@@ -10,6 +10,7 @@
 #include "counter.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 class SeedModel {
 public:
@@ -54,4 +55,5 @@ private:
     std::array<std::array<Counter, max_digits>, 3> n_digits_{};
 };
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

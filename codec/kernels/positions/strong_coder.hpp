@@ -6,26 +6,28 @@
 #include <memory>
 #include <span>
 
-#include "expectation.hpp"
+#include "../range_coder.hpp"
+#include "axes.hpp"
 #include "prediction.hpp"
-#include "recall.hpp"
 #include "residual_model.hpp"
 #include "seed_model.hpp"
+#include "strong.hpp"
 #include "surroundings.hpp"
 #include "traversal.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 template <class Coder>
-void code_positions_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+void code_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
     const auto n = static_cast<size_t>(mesh.n_vertices);
     const CornersOfVertices corners(mesh);
     Traversal traversal(mesh, corners);
     const Surveyor surveyor(mesh, corners, traversal, xyz);
     Predictor predictor(n);
     Axes axes(predictor);
-    const auto model = std::make_unique<ResidualModel>(n);
+    const auto model = std::make_unique<ResidualModel<Coder>>(coder, n);
     SeedModel seeds;
     Surroundings s;
     Prediction p;
@@ -42,8 +44,10 @@ void code_positions_strong(Coder& coder, const Surface& mesh, std::span<int64_t>
         for (size_t turn = 0; turn < 3; ++turn) {
             const size_t d = p.axes[turn];
             const int64_t base = axes.base(d);
+            axes.find_contexts(turn, x);
+            model->find(x);
             axes.expect(turn, x);
-            const int64_t e = model->code(coder, x, wrapping_difference(position[d], base));
+            const int64_t e = model->code(x, wrapping_difference(position[d], base));
             position[d] = wrapping_sum(base, e);
             axes.reveal(turn, e);
         }
@@ -51,4 +55,8 @@ void code_positions_strong(Coder& coder, const Surface& mesh, std::span<int64_t>
     }
 }
 
+template void code_strong(RangeEncoder&, const Surface&, std::span<int64_t>);
+template void code_strong(RangeDecoder&, const Surface&, std::span<int64_t>);
+
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

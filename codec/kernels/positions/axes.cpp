@@ -1,4 +1,4 @@
-#include "expectation.hpp"
+#include "axes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,17 +45,23 @@ void Axes::begin(const Surroundings& s, const Prediction& p) {
     first_residual_ = last_residual_ = 0;
 }
 
+void Axes::find_contexts(size_t turn, Expectation& x) {
+    const size_t d = p_->axes[turn];
+    x.turn = turn;
+    nearest_ = nearest(d);
+    set_sizes(d, x);
+    set_contexts(turn, x);
+    set_keys(turn);
+}
+
 void Axes::expect(size_t turn, Expectation& x) {
     const size_t d = p_->axes[turn];
-    const Nearest near = nearest(d);
-    x.turn = turn;
     x.values = 0;
     x.value.fill(0);
+    x.value_context.fill(0);
     set_distributions(d, x);
-    set_sizes(d, x);
-    set_values(turn, near, x);
+    set_values(turn, x);
     set_recalled(turn, x);
-    set_contexts(turn, near, x);
 }
 
 // Factors from a standard deviation or a mean magnitude to the scale of a logistic distribution.
@@ -71,6 +77,7 @@ void Axes::set_distributions(size_t d, Expectation& x) const {
     set(1, p_->weighted[d], p_->spread[d] * 0.5 + p_->error[d] * 0.2 + 0.15);
     set(2, refined_mean_[d], sigma * 0.55 * sharper + 0.08);
     set(3, p_->fitted[d], error * sharper + 0.05);
+    for (size_t i = 4; i < 8; ++i) set(i, base, 1.0);
 }
 
 void Axes::set_sizes(size_t d, Expectation& x) const {
@@ -80,7 +87,7 @@ void Axes::set_sizes(size_t d, Expectation& x) const {
     x.level = std::min(level - 2 * x.shift, 22) / 2;
     const double typical = std::clamp(sigma * 0.6, 0.25, 1e12);
     const int digits = static_cast<int>(log2_approx(static_cast<float>(typical)) + 10.5f) - 10;
-    x.expected_class = std::clamp(digits, 0, ResidualModel::max_class - 1);
+    x.expected_class = std::clamp(digits, 0, Expectation::max_class - 1);
 }
 
 Axes::Nearest Axes::nearest(size_t d) const {
@@ -111,7 +118,8 @@ uint32_t Axes::exactness(size_t d) const {
     return static_cast<uint32_t>(std::min(p_->n_exact[d], 3) * 4 + std::min(p_->n_traces, 3));
 }
 
-void Axes::set_values(size_t turn, const Nearest& near, Expectation& x) {
+void Axes::set_values(size_t turn, Expectation& x) {
+    const Nearest& near = nearest_;
     const size_t d = p_->axes[turn];
     uint32_t first = 0, second = 0, most = 1;
     double best_distance = 0;
@@ -147,18 +155,26 @@ uint32_t Axes::codes(size_t neighbour) const {
 
 // The residual that followed the same residuals around it, and the value that went with the same
 // coordinates on earlier axes.
-void Axes::set_recalled(size_t turn, Expectation& x) {
+void Axes::set_keys(size_t turn) {
     const size_t d = p_->axes[turn];
-    const auto axis_and_turn = static_cast<uint32_t>(d * 4 + turn), context = static_cast<uint32_t>(16 * turn);
+    const auto axis_and_turn = static_cast<uint32_t>(d * 4 + turn);
     residual_key_ = hash(codes(0), codes(1), axis_and_turn, hash(low_bits(first_residual_), low_bits(last_residual_)));
     const int64_t one = turn > 0 ? value(p_->axes[0]) : s_->origin[d], two = turn > 1 ? value(p_->axes[1]) : 0;
     value_key_ = hash(axis_and_turn, low_bits(one), low_bits(two));
+    residual_recall_.prefetch(residual_key_);
+    value_recall_.prefetch(value_key_);
+}
+
+void Axes::set_recalled(size_t turn, Expectation& x) {
+    const size_t d = p_->axes[turn];
+    const auto context = static_cast<uint32_t>(16 * turn);
     if (const auto* r = residual_recall_.find(residual_key_)) add_value(x, 6, r->value, r->hits + context);
     if (const auto* r = value_recall_.find(value_key_))
         add_value(x, 7, wrapping_difference(r->value, base(d)), r->hits + context);
 }
 
-void Axes::set_contexts(size_t turn, const Nearest& near, Expectation& x) const {
+void Axes::set_contexts(size_t turn, Expectation& x) const {
+    const Nearest& near = nearest_;
     const size_t d = p_->axes[turn];
     const auto scaled = [&](double size) {
         return static_cast<uint32_t>(std::clamp(level_of(size) - 2 * x.shift, 0, 40));

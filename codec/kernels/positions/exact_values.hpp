@@ -1,0 +1,94 @@
+// Values that a residual may repeat: what they say of a decision, as long as they are in the interval.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "counter.hpp"
+#include "expectation.hpp"
+#include "lanes.hpp"
+
+namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
+
+class ExactValues {
+public:
+    static constexpr size_t n_nodes = 32;
+
+    ExactValues() {
+        for (auto& table : hits_) table.fill(counter::unseen);
+    }
+
+    // The interval is all; distances are those of the negative side.
+    void start(const Expectation& x) {
+        for (size_t i = 0; i < n; ++i) {
+            nodes_[i] = &told_[i][x.value_context[i]];
+            hit_[i] = &hits_[i][x.value_context[i]];
+            value_[i] = x.value[i];
+            distance_[i] = ~value_[i];
+        }
+        present_ = x.values;
+        alive_ = 0;
+        for (size_t i = 0; i < n; ++i) alive_ |= static_cast<unsigned>(*hit_[i] >= min_hits) << i;
+        alive_ &= present_;
+    }
+
+    void take_side(bool negative) {
+        take(negative);
+        if (!negative) distance_ = value_;
+    }
+
+    bool any() const { return alive_ != 0; }
+
+    // Logits of the distance being at least `at`, by how often each value told it right.
+    WideLanes split(int64_t at, size_t node) {
+        upper_ = 0;
+        for (size_t i = 0; i < n; ++i) upper_ |= static_cast<unsigned>(distance_[i] >= at) << i;
+        const auto state = [&](size_t i) { return static_cast<int32_t>((*nodes_[i])[node]); };
+        states_ = WideIntLanes{state(0), state(1), state(2), state(3), state(4), state(5), state(6), state(7)};
+        const WideLanes agrees = counter::opinion<WideLanes>(states_);
+        return only(lanes_of(alive_), lanes_of(upper_) != 0 ? agrees : -agrees);
+    }
+
+    // After the last split.
+    void learn(bool upper, size_t node) {
+        const WideIntLanes right = lanes_of(upper ? upper_ : ~upper_);
+        const WideLanes target = only(right, splat<WideLanes>(counter::certain));
+        const WideIntLanes learnt = counter::updated(states_, target, splat<WideLanes>(expected_right));
+        const WideIntLanes next = lanes_of(alive_) != 0 ? learnt : states_;
+        for (size_t i = 0; i < n; ++i) (*nodes_[i])[node] = static_cast<CounterState>(next[i]);
+    }
+
+    void take(bool upper) { alive_ &= upper ? upper_ : ~upper_; }
+
+    void finish(int64_t e) {
+        unsigned hits = 0;
+        for (size_t i = 0; i < n; ++i) hits |= static_cast<unsigned>(value_[i] == e) << i;
+        const auto state = [&](size_t i) { return static_cast<int32_t>(*hit_[i]); };
+        const WideIntLanes states = {state(0), state(1), state(2), state(3), state(4), state(5), state(6), state(7)};
+        const WideLanes target = only(lanes_of(hits), splat<WideLanes>(counter::certain));
+        const WideIntLanes learnt = counter::updated(states, target, splat<WideLanes>(expected_hit));
+        const WideIntLanes next = lanes_of(present_) != 0 ? learnt : states;
+        for (size_t i = 0; i < n; ++i) *hit_[i] = static_cast<CounterState>(next[i]);
+    }
+
+private:
+    static constexpr size_t n = Expectation::n_values;
+    static_assert(n == 8, "one vector");
+    static constexpr CounterState min_hits = 1u << 26;  // 1/64: rarer ones do not pay
+    static constexpr float expected_right = 0.75f * 4194304, expected_hit = 0.25f * 4194304;
+
+    using Nodes = std::array<CounterState, n_nodes>;
+
+    std::array<std::array<Nodes, 64>, n> told_{};            // by context: whether a value told right
+    std::array<std::array<CounterState, 64>, n> hits_{};  // how often a value is the one
+    std::array<Nodes*, n> nodes_{};
+    std::array<CounterState*, n> hit_{};
+    std::array<int64_t, n> value_{}, distance_{};
+    unsigned present_ = 0, alive_ = 0, upper_ = 0;  // a bit per value
+    WideIntLanes states_{};
+};
+
+}  // namespace EBZ_INSTRUCTIONS
+}  // namespace ebz::positions

@@ -1,0 +1,2 @@
+// code_strong for the baseline.
+#include "strong_coder.hpp"
