@@ -26,7 +26,7 @@ def read(
 
     path_or_file: a path or a binary file object, read to its end.
     format: "ply", "obj", "off", "stl", "gltf", "glb" or "ebz" where it is not to be recognised.
-    triangulate: fan polygons with more than three corners, which are an error otherwise.
+    triangulate: cut polygons into fans of triangles.
     Raises EbzError (its `source` is the file's name) and OSError.
     """
     name = _name(path_or_file)

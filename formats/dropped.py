@@ -4,6 +4,7 @@ import warnings
 from collections.abc import Mapping
 
 from ebz.codec.errors import DroppedWarning
+from ebz.codec.mesh import Mesh
 
 
 def warn_dropped(message: str) -> None:
@@ -17,3 +18,10 @@ def warn_attributes(format_name: str, **owners: Mapping[str, object]) -> None:
         if attributes:
             names = ", ".join(repr(name) for name in attributes)
             warn_dropped(f"{format_name} cannot carry {owner} attributes: {names}")
+
+
+def warn_elements(format_name: str, mesh: Mesh) -> None:
+    """Warns of the elements of a mesh that a file of `format_name` cannot carry."""
+    parts = [f"{name!r} ({len(element)})" for name, element in mesh.elements.items()]
+    if parts:
+        warn_dropped(f"{format_name} cannot carry elements: {', '.join(parts)}")

@@ -2,11 +2,15 @@
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any, Protocol
+from typing import Any
+
+import numpy as np
 
 from ebz.codec.errors import OptionError
 from ebz.codec.mesh import Mesh
 from ebz.formats.detect import FORMATS, format_of, format_of_suffix, suffix_of
+from ebz.formats.dropped import warn_dropped
+from ebz.formats.polygons import fanned
 
 __all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"]
 
@@ -14,16 +18,13 @@ __all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"
 # Where read_FORMAT and write_FORMAT are.
 MODULES = {
     "ply": ("ply", "ply_write"),
-    "obj": ("obj", "obj"),
+    "obj": ("obj", "obj_write"),
     "off": ("off", "off_write"),
     "stl": ("stl", "stl_write"),
     "gltf": ("gltf", "gltf"),
     "glb": ("gltf", "gltf"),
 }
-
-
-class Reader(Protocol):
-    def __call__(self, data: bytes, *, triangulate: bool = False) -> Mesh: ...
+TRIANGLES_ONLY = ("stl", "gltf", "glb")
 
 
 def read_mesh(
@@ -36,12 +37,13 @@ def read_mesh(
     """The mesh of a file's bytes; metadata["format"] says which format it had.
 
     format: one of FORMATS; None: by content, else by the suffix of `name`.
-    triangulate: cut polygons of more than three corners into fans instead of refusing them.
+    triangulate: cut polygons into fans of triangles.
     Warns (DroppedWarning) of what is left out. Raises MeshError, OptionError.
     """
     content = data if isinstance(data, bytes) else bytes(data)
     chosen = format_of(content, name) if format is None else format
-    return _reader(chosen)(content, triangulate=triangulate)
+    mesh = _reader(chosen)(content)
+    return fanned(mesh) if triangulate else mesh
 
 
 def write_mesh(mesh: Mesh, format: str) -> bytes:
@@ -49,11 +51,15 @@ def write_mesh(mesh: Mesh, format: str) -> bytes:
 
     Warns (DroppedWarning) of what the format cannot carry. Raises MeshError, OptionError.
     """
+    if format in TRIANGLES_ONLY and not mesh.is_triangles:
+        n_polygons = int(np.count_nonzero(np.diff(mesh.offsets) != 3))
+        warn_dropped(f"{format.upper()} holds triangles only: {n_polygons} polygons are cut up")
+        mesh = fanned(mesh)
     return _writer(format)(mesh)
 
 
-def _reader(format: str) -> Reader:
-    reader: Reader = _function(0, "read", format)
+def _reader(format: str) -> Callable[[bytes], Mesh]:
+    reader: Callable[[bytes], Mesh] = _function(0, "read", format)
     return reader
 
 

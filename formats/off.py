@@ -29,7 +29,7 @@ from ebz.codec.errors import MeshError
 from ebz.codec.mesh import Mesh
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import narrowed, shown
-from ebz.formats.polygons import check_indices, triangles
+from ebz.formats.polygons import check_indices, offsets_of
 from ebz.formats.text_floats import (
     DOUBLE_MARK,
     Line,
@@ -64,7 +64,7 @@ COLOR_NAMES = {3: "rgb", 4: "rgba"}
 FACE_COLOR_NAMES = {1: "colormap", **COLOR_NAMES}
 
 
-def read_off(data: bytes, *, triangulate: bool = False) -> Mesh:
+def read_off(data: bytes) -> Mesh:
     """The mesh of an OFF file; metadata["off"] holds comments and the count of edges.
 
     Raises MeshError that names the line.
@@ -80,12 +80,12 @@ def read_off(data: bytes, *, triangulate: bool = False) -> Mesh:
         warn_dropped(f"OFF: {len(lines)} lines behind the last face")
     double = DOUBLE_MARK in comments
     vertices, vertex_attributes = _vertices(rows, prefix, double=double)
-    faces, face_attributes = _faces(face_rows, n_vertices, triangulate=triangulate)
+    corners, offsets, face_attributes = _faces(face_rows, n_vertices)
     flavour: dict[str, Any] = {"comments": [c for c in comments if c != DOUBLE_MARK]}
     if len(counts) > 2:
         flavour["edges"] = counts[2]
     metadata = {"format": "off", "off": {k: v for k, v in flavour.items() if v}}
-    return Mesh(vertices, faces, vertex_attributes, face_attributes, metadata)
+    return Mesh(vertices, corners, vertex_attributes, face_attributes, metadata, offsets)
 
 
 def _lines(data: bytes) -> tuple[list[Line], list[str]]:
@@ -221,10 +221,11 @@ def _color(values: npt.NDArray[np.float64], words: list[bytes]) -> npt.NDArray[A
 
 
 def _faces(
-    rows: Rows, n_vertices: int, *, triangulate: bool
-) -> tuple[npt.NDArray[Any], dict[str, npt.NDArray[Any]]]:
+    rows: Rows, n_vertices: int
+) -> tuple[npt.NDArray[Any], npt.NDArray[np.int64], dict[str, npt.NDArray[Any]]]:
+    """The corners of all faces, where those of each begin, and the colours behind them."""
     if not rows.words:
-        return np.zeros((0, 3), np.int32), {}
+        return np.zeros(0, np.int32), np.zeros(1, np.int64), {}
     numbers, counts = rows.numbers, rows.counts
     lengths = _words_of_faces(rows) - 1
     place = np.arange(len(rows.words)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -235,21 +236,8 @@ def _faces(
     is_corner &= place > 0
     words = [word for word, keep in zip(words, is_corner.tolist(), strict=True) if keep]
     corners = integers_at(words, np.repeat(numbers, lengths))
-    attributes = _face_colors(colors, counts - lengths - 1, numbers)
-    faces, origin = triangles(
-        lengths,
-        corners,
-        triangulate=triangulate,
-        place=lambda row: f"line {numbers[row]}: face {row}",
-    )
-    check_indices(
-        faces,
-        n_vertices,
-        lambda row: f"line {numbers[row if origin is None else origin[row]]}: face",
-    )
-    if origin is not None:
-        attributes = {name: values[origin] for name, values in attributes.items()}
-    return faces, attributes
+    check_indices(corners, lengths, n_vertices, lambda row: f"line {numbers[row]}: face")
+    return corners, offsets_of(lengths), _face_colors(colors, counts - lengths - 1, numbers)
 
 
 def _face_colors(

@@ -6,10 +6,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.mesh import Mesh
-from ebz.formats.dropped import warn_attributes
+from ebz.formats.dropped import warn_attributes, warn_elements
 from ebz.formats.numbers import format_numbers
 from ebz.formats.off import COLOR_NAMES, FACE_COLOR_NAMES
 from ebz.formats.text_floats import DOUBLE_MARK, one_line, reads_as_float32
+from ebz.formats.text_lines import joined_rows
 
 
 def write_off(mesh: Mesh) -> bytes:
@@ -31,7 +32,8 @@ def write_off(mesh: Mesh) -> bytes:
         keyword = letter + keyword
         del left[name]
     face_words, left_faces = _face_color_words(mesh)
-    warn_attributes("OFF", vertex=left, face=left_faces)
+    warn_attributes("OFF", vertex=left, face=left_faces, corner=mesh.corner_attributes)
+    warn_elements("OFF", mesh)
     flavour = mesh.metadata.get("off")
     flavour = flavour if isinstance(flavour, dict) else {}
     found = flavour.get("comments")
@@ -41,10 +43,12 @@ def write_off(mesh: Mesh) -> bytes:
     edges = flavour.get("edges")
     lines = [keyword, *(f"# {one_line(c)}".rstrip(" ") for c in comments)]
     n_edges = edges if isinstance(edges, int) and edges >= 0 else 0
-    lines.append(f"{len(mesh.vertices)} {len(mesh.faces)} {n_edges}")
+    lines.append(f"{mesh.n_vertices} {mesh.n_faces} {n_edges}")
     lines += map(" ".join, zip(*columns, strict=True))
-    corners = mesh.faces.T.tolist()
-    lines += [f"3 {a} {b} {c}{more}" for a, b, c, more in zip(*corners, face_words, strict=True)]
+    corners = joined_rows(list(map(str, mesh.corners.tolist())), mesh.offsets)
+    lengths = np.diff(mesh.offsets).tolist()
+    faces = zip(lengths, corners, face_words, strict=True)
+    lines += [f"{n} {text}{more}" if n else f"0{more}" for n, text, more in faces]
     return "\n".join([*lines, ""]).encode()
 
 
@@ -67,7 +71,7 @@ def _colors(table: npt.NDArray[Any]) -> list[list[str]]:
 
 def _face_color_words(mesh: Mesh) -> tuple[list[str], dict[str, npt.NDArray[Any]]]:
     """What stands behind the corners of each face, and the attributes that have no place there."""
-    left, n = dict(mesh.face_attributes), len(mesh.faces)
+    left, n = dict(mesh.face_attributes), mesh.n_faces
     for width, name in (*FACE_COLOR_NAMES.items(), (4, "color")):
         values, counts = left.get(name), left.get("color:count")
         if values is None or values.shape not in ((n, width), (n,) if width == 1 else (n, 4)):

@@ -2,7 +2,8 @@
 
 What the format leaves open, and what is chosen here:
 
-- `vertex_index` and `vertex_indices` are the same; the first of the two makes the faces.
+- `vertex_index` and `vertex_indices` are the same; the first of the two makes the faces, which may
+  have any number of corners. ply_tables.py says what lists and other elements become.
 - Coordinates of mixed types, or of integers, become float64; the declared types are kept and come
   back where the values still fit them.
 - In ascii, `float` is honoured where each text is a float32 rounded to some number of digits, as
@@ -12,8 +13,7 @@ What the format leaves open, and what is chosen here:
 - One row is one line in ascii; blank lines are passed over. A row of other length is an error.
 - Lists of one length in all rows become an (n, length) array; others are padded with zeros, and
   the attribute `NAME:count` says how long they are. `NAME:count` is written back as the list's.
-- Elements other than vertex and face are left out with a warning; so is what follows the last
-  element. Triangle strips are refused.
+- What follows the last element is left out with a warning. Triangle strips are refused.
 - Spaces within header lines are not kept, but for those of comments and obj_info; line ends are.
 """
 
@@ -22,18 +22,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec.elements import Element as Rows
 from ebz.codec.errors import MeshError
-from ebz.codec.mesh import Mesh
+from ebz.codec.mesh import Mesh, face_dtype
 from ebz.formats import ply_ascii, ply_binary
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import rendered
-from ebz.formats.ply_columns import Column, Lists, padded
-from ebz.formats.ply_header import MAGIC, Element, Header, read_header
-from ebz.formats.polygons import check_indices, triangles
-
-AXES = ("x", "y", "z")
-INDEX_NAMES = ("vertex_indices", "vertex_index")
-COUNT_SUFFIX = ":count"
+from ebz.formats.ply_columns import Column
+from ebz.formats.ply_header import MAGIC, Header, read_header
+from ebz.formats.ply_tables import AXES, MARK, Table, check_named, read_table
+from ebz.formats.polygons import check_indices, offsets_of
 
 
 def is_ply(head: bytes) -> bool:
@@ -41,7 +39,7 @@ def is_ply(head: bytes) -> bool:
     return head[:4] in (MAGIC + b"\n", MAGIC + b"\r")
 
 
-def read_ply(data: bytes, *, triangulate: bool = False) -> Mesh:
+def read_ply(data: bytes) -> Mesh:
     """The mesh of a PLY file; metadata["ply"] holds the flavour: format, newline, header lines.
 
     Raises MeshError that names line, or element, row and property.
@@ -49,32 +47,36 @@ def read_ply(data: bytes, *, triangulate: bool = False) -> Mesh:
     header = read_header(data)
     _check_elements(header)
     columns = _read_columns(data, header)
-    vertex = _element(header, "vertex")
-    vertices = _vertices(header, vertex, columns["vertex"])
-    rest = [(p, c) for p, c in zip(vertex.properties, columns["vertex"], strict=True)]
-    vertex_attributes = _attributes(vertex, [(p, c) for p, c in rest if p.name not in AXES], header)
-    mesh = Mesh(vertices, np.zeros((0, 3), np.int32), vertex_attributes)
-    mesh.metadata = {"format": "ply", "ply": _flavour(header)}
-    if "face" not in columns:
-        return mesh
-    face = _element(header, "face")
-    faces, origin, attributes = _faces(face, columns["face"], header, triangulate=triangulate)
-    check_indices(faces, len(vertices), lambda row: f"face {_source(origin, row)}")
-    if origin is not None:
-        attributes = {name: values[origin] for name, values in attributes.items()}
-    return Mesh(vertices, faces, vertex_attributes, attributes, mesh.metadata)
+    vertices = _vertices(header, columns["vertex"])
+    tables = {e.name: read_table(e, columns[e.name], header) for e in header.elements}
+    for name, table in tables.items():
+        where = "face {}" if name == "face" else f"element {name!r}: row {{}}"
+        check_indices(table.corners, table.lengths, len(vertices), where.format)
+    vertex = tables.pop("vertex")
+    face = tables.pop("face", Table(np.zeros(0, np.int64), np.zeros(0, np.int32)))
+    return Mesh(
+        vertices,
+        face.corners,
+        vertex.attributes,
+        face.attributes,
+        {"format": "ply", "ply": _flavour(header)},
+        offsets_of(face.lengths),
+        face.corner_attributes,
+        {name: _rows(table, len(vertices)) for name, table in tables.items()},
+    )
 
 
-def _source(origin: npt.NDArray[np.intp] | None, row: int) -> int:
-    return row if origin is None else int(origin[row])
+def _rows(table: Table, n_vertices: int) -> Rows:
+    corners = table.corners.astype(face_dtype(n_vertices))
+    return Rows(offsets_of(table.lengths), corners, table.attributes, table.corner_attributes)
 
 
 def _check_elements(header: Header) -> None:
-    names = [element.name for element in header.elements]
-    if "vertex" not in names:
+    by_name = {element.name: element for element in header.elements}
+    if "vertex" not in by_name:
         raise MeshError("there is no element 'vertex'")
     for name in AXES:
-        found = [p for p in _element(header, "vertex").properties if p.name == name]
+        found = [p for p in by_name["vertex"].properties if p.name == name]
         if not found:
             raise MeshError(f"element 'vertex': there is no property {name!r}")
         if found[0].count_type:
@@ -83,20 +85,9 @@ def _check_elements(header: Header) -> None:
         if element.name == "tristrips" and element.count:
             raise MeshError("element 'tristrips': triangle strips are not read: write faces")
         if element.name == "face" and element.count:
-            _index_column(element)
-
-
-def _element(header: Header, name: str) -> Element:
-    return next(element for element in header.elements if element.name == name)
-
-
-def _index_column(face: Element) -> int:
-    for i, prop in enumerate(face.properties):
-        if prop.name in INDEX_NAMES:
-            if not prop.count_type or prop.dtype.kind == "f":
-                raise MeshError(f"element 'face': property {prop.name!r} is no list of integers")
-            return i
-    raise MeshError("element 'face': there is no property 'vertex_indices'")
+            check_named(element)
+        elif not element.properties and element.count:
+            raise MeshError(f"element {element.name!r}: {element.count} rows without properties")
 
 
 def _read_columns(data: bytes, header: Header) -> dict[str, list[Column]]:
@@ -114,16 +105,14 @@ def _read_columns(data: bytes, header: Header) -> dict[str, list[Column]]:
                 data, offset, element, header.byte_order
             )
         left, unit = len(data) - offset, "bytes"
-    for element in header.elements:
-        if element.name not in ("vertex", "face"):
-            warn_dropped(f"element {element.name!r} with {element.count} rows")
     if left:
         warn_dropped(f"{left} {unit} behind the last element")
     return columns
 
 
-def _vertices(header: Header, vertex: Element, columns: list[Column]) -> npt.NDArray[Any]:
+def _vertices(header: Header, columns: list[Column]) -> npt.NDArray[Any]:
     """(n, 3) float32 where x, y and z are float, else float64."""
+    vertex = next(element for element in header.elements if element.name == "vertex")
     by_name = {p.name: (p, c) for p, c in zip(vertex.properties, columns, strict=True)}
     single = all(by_name[name][0].dtype == np.float32 for name in AXES)
     ascii_file = header.format == "ascii"
@@ -134,52 +123,9 @@ def _vertices(header: Header, vertex: Element, columns: list[Column]) -> npt.NDA
     return rendered(vertices) if single and ascii_file else vertices
 
 
-def _attributes(
-    element: Element, columns: list[tuple[Any, Column]], header: Header
-) -> dict[str, npt.NDArray[Any]]:
-    attributes: dict[str, npt.NDArray[Any]] = {}
-    for prop, column in columns:
-        values = column.values if isinstance(column, Lists) else column
-        if header.format == "ascii" and prop.dtype == np.float32:
-            values = rendered(values)
-        if isinstance(column, Lists):
-            length = column.constant_length()
-            if length is None:
-                where = f"element {element.name!r}: property {prop.name!r}"
-                values = padded(Lists(column.lengths, values), where)
-                attributes[prop.name + COUNT_SUFFIX] = column.lengths
-            else:
-                values = values.reshape(len(column.lengths), length)
-        attributes[prop.name] = values
-    return attributes
-
-
-def _faces(
-    face: Element, columns: list[Column], header: Header, *, triangulate: bool
-) -> tuple[npt.NDArray[Any], npt.NDArray[np.intp] | None, dict[str, npt.NDArray[Any]]]:
-    index = _index_column(face) if face.count else -1
-    rest = list(zip(face.properties, columns, strict=True))
-    if index < 0:
-        rest = [(p, c) for p, c in rest if p.name not in INDEX_NAMES]
-        return np.zeros((0, 3), np.int32), None, _attributes(face, rest, header)
-    lists = columns[index]
-    assert isinstance(lists, Lists)  # _index_column has made sure
-    faces, origin = triangles(
-        lists.lengths, lists.values, triangulate=triangulate, place=lambda row: f"face {row}"
-    )
-    del rest[index]
-    return faces, origin, _attributes(face, rest, header)
-
-
 def _flavour(header: Header) -> dict[str, Any]:
-    lines: list[str | bytes] = []
-    kept = True
-    for line in header.lines:
-        if isinstance(line, str) and line.startswith("element "):
-            kept = line in ("element vertex", "element face")
-        is_comment = isinstance(line, bytes) or not line.startswith(("element ", "property "))
-        if kept or is_comment:
-            lines.append(line)
+    """What write_ply needs to write the file as it was."""
+    lines = [x for x in header.lines if isinstance(x, bytes) or not MARK.fullmatch(x)]
     flavour: dict[str, Any] = {"format": header.format, "header": lines}
     if header.newline != "\n":
         flavour["newline"] = header.newline

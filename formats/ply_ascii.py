@@ -109,39 +109,38 @@ class _Block:
         return columns if at == width else None
 
     def uneven(self) -> list[Column]:
-        """Columns by a walk over the rows."""
-        properties = self.element.properties
-        words: list[list[bytes]] = [[] for _ in properties]
-        rows: list[list[int]] = [[] for _ in properties]
-        lengths: list[list[int]] = [[] for _ in properties]
-        end = 0
-        for row, count in enumerate(self.counts.tolist()):
-            at, end = end, end + count
-            for i, prop in enumerate(properties):
-                n = 1
-                if prop.count_type and at < end:
-                    n = int(self._lengths(prop, [self.words[at]], np.array([row]))[0])
-                    lengths[i].append(n)
-                    at += 1
-                if at + n > end:
-                    raise self._error(row, prop, "early end of line")
-                words[i] += self.words[at : at + n]
-                rows[i] += [row] * n
-                at += n
-            if at < end:
-                extra = shown(self.words[at])
-                raise MeshError(
-                    f"element {self.element.name!r}: row {self.row + row}: "
-                    f"expected end of line, found {extra}"
-                )
+        """Columns where each row has lists of its own lengths, one property after another."""
+        rows, ends = np.arange(len(self.counts)), np.cumsum(self.counts)
+        at = ends - self.counts
         columns: list[Column] = []
-        for i, prop in enumerate(properties):
-            values = self._parse(prop, words[i], np.array(rows[i], np.intp))
-            if prop.count_type:
-                columns.append(Lists(np.array(lengths[i], prop.count_dtype), values))
-            else:
-                columns.append(values)
+        for prop in self.element.properties:
+            self._check_room(prop, at + 1 > ends)
+            if not prop.count_type:
+                columns.append(self._parse(prop, self._words(at), rows))
+                at = at + 1
+                continue
+            lengths = self._lengths(prop, self._words(at), rows)
+            n = lengths.astype(np.int64)
+            self._check_room(prop, at + 1 + n > ends)
+            first = np.cumsum(n) - n
+            places = np.arange(n.sum()) + np.repeat(at + 1 - first, n)
+            values = self._parse(prop, self._words(places), np.repeat(rows, n))
+            columns.append(Lists(lengths, values))
+            at = at + 1 + n
+        if (at < ends).any():
+            row = int(np.argmax(at < ends))
+            raise MeshError(
+                f"element {self.element.name!r}: row {self.row + row}: "
+                f"expected end of line, found {shown(self.words[at[row]])}"
+            )
         return columns
+
+    def _words(self, places: npt.NDArray[np.intp]) -> list[bytes]:
+        return [self.words[i] for i in places.tolist()]
+
+    def _check_room(self, prop: Property, beyond: npt.NDArray[np.bool_]) -> None:
+        if beyond.any():
+            raise self._error(int(np.argmax(beyond)), prop, "early end of line")
 
     def _lengths(
         self, prop: Property, words: list[bytes], rows: npt.NDArray[np.intp]

@@ -28,6 +28,21 @@ class Lists:
         first = int(self.lengths[0])
         return first if (self.lengths == first).all() else None
 
+    def per_corner(self, corners: npt.NDArray[Any]) -> int | None:
+        """How many values each corner has, where `corners` (per row) times that is every length.
+
+        One value for each corner of rows that all have as many is taken for a vector of the row:
+        None, as where the lengths do not suit.
+        """
+        n_corners = int(corners.sum(dtype=np.int64))
+        if not n_corners or not len(self.values) or len(self.values) % n_corners:
+            return None
+        width = len(self.values) // n_corners
+        if width == 1 and (corners == corners[0]).all():
+            return None
+        same = self.lengths.astype(np.int64) == width * corners.astype(np.int64)
+        return width if same.all() else None
+
 
 Column: TypeAlias = npt.NDArray[Any] | Lists
 

@@ -1,23 +1,34 @@
 """Meshes -> PLY files, in the flavour that metadata["ply"] remembers where there is one."""
 
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec.elements import Element as Rows
 from ebz.codec.errors import MeshError
 from ebz.codec.mesh import Mesh
 from ebz.formats import ply_ascii, ply_binary
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import rendered
-from ebz.formats.ply import AXES, COUNT_SUFFIX, INDEX_NAMES
-from ebz.formats.ply_columns import Column, Lists, unpadded
+from ebz.formats.ply_columns import Lists
+from ebz.formats.ply_fields import (
+    COUNT_TYPES,
+    TYPE_NAMES,
+    Fields,
+    Wanted,
+    attribute_fields,
+    converted,
+    corner_fields,
+    count_type,
+    fits,
+    is_name,
+)
 from ebz.formats.ply_header import TYPES, Element, Header, Property, read_header, write_header
+from ebz.formats.ply_tables import AXES, END_NAMES, INDEX_NAMES, index_properties, mark
 
-Fields: TypeAlias = list[tuple[Property, Column]]
-
-TYPE_NAMES = {np.dtype(code): name for name, code in reversed(TYPES.items())}
 DEFAULT_FLAVOUR = {"format": "binary_little_endian", "header": ["element vertex", "element face"]}
+RESERVED = ("vertex", "face", "tristrips")
 
 
 def write_ply(mesh: Mesh) -> bytes:
@@ -27,21 +38,20 @@ def write_ply(mesh: Mesh) -> bytes:
     is no header.
     """
     header = _parsed(mesh.metadata.get("ply", DEFAULT_FLAVOUR))
-    wanted = {element.name: element.properties for element in header.elements}
     in_text = header.format == "ascii"
-    tables = {"vertex": _vertex_fields(mesh, wanted.get("vertex", []), in_text)}
-    if "face" in wanted or len(mesh.faces):
-        tables["face"] = _face_fields(mesh, wanted.get("face", []), in_text)
-    counts = {"vertex": len(mesh.vertices), "face": len(mesh.faces)}
-    order = [name for name in [*wanted, *tables] if name in tables]
+    wanted = {
+        element.name: Wanted(element.name, in_text, {p.name: p for p in element.properties})
+        for element in header.elements
+    }
+    tables = _tables(mesh, wanted, in_text)
+    order = dict.fromkeys(name for name in [*wanted, *tables] if name in tables)
     header.elements = [
-        Element(name, counts[name], [prop for prop, _ in tables[name]])
-        for name in dict.fromkeys(order)
+        Element(name, tables[name][0], [prop for prop, _ in tables[name][1]]) for name in order
     ]
-    header.lines = _lines(header.lines, header.elements)
+    header.lines = _lines(header.lines, header.elements) + _marks(mesh, tables)
     parts = [write_header(header)]
     for element in header.elements:
-        columns = [column for _, column in tables[element.name]]
+        columns = [column for _, column in tables[element.name][1]]
         if in_text:
             parts.append(ply_ascii.write_rows(element, columns, header.newline))
         else:
@@ -88,22 +98,41 @@ def _lines(old: list[str | bytes], elements: list[Element]) -> list[str | bytes]
     return lines
 
 
-def _vertex_fields(mesh: Mesh, wanted: list[Property], in_text: bool) -> Fields:
-    declared = {prop.name: prop for prop in wanted}
+def _tables(mesh: Mesh, wanted: dict[str, Wanted], in_text: bool) -> dict[str, tuple[int, Fields]]:
+    """How many rows each element has, and its properties with their columns."""
+    vertex = wanted.get("vertex", Wanted("vertex", in_text))
+    tables = {"vertex": (mesh.n_vertices, _vertex_fields(mesh, vertex))}
+    if "face" in wanted or mesh.n_faces:
+        face = Rows(mesh.offsets, mesh.corners, mesh.face_attributes, mesh.corner_attributes)
+        face_wanted = wanted.get("face", Wanted("face", in_text))
+        tables["face"] = (len(face), _row_fields(face, face_wanted))
+    for name, element in mesh.elements.items():
+        if name in RESERVED or not is_name(name):
+            warn_dropped(f"PLY cannot carry an element named {name!r}")
+            continue
+        fields = _row_fields(element, wanted.get(name, Wanted(name, in_text)))
+        if fields or not len(element):
+            tables[name] = (len(element), fields)
+        else:
+            warn_dropped(f"PLY cannot carry {len(element)} rows without properties: {name!r}")
+    return tables
+
+
+def _vertex_fields(mesh: Mesh, wanted: Wanted) -> Fields:
     types = [
-        _coordinate_type(mesh.vertices[:, i], declared.get(name), in_text)
+        _coordinate_type(mesh.vertices[:, i], wanted.declared.get(name), wanted.in_text)
         for i, name in enumerate(AXES)
     ]
     if mesh.vertices.dtype == np.float64 and all(TYPES[name] == "f4" for name in types):
         # All float would be read back as float32, unless in text that says more than that.
-        text_says_more = in_text and rendered(mesh.vertices).dtype == np.float64
+        text_says_more = wanted.in_text and rendered(mesh.vertices).dtype == np.float64
         types = types if text_says_more else ["double"] * 3
     fields: Fields = []
     for i, (name, type_name) in enumerate(zip(AXES, types, strict=True)):
         prop = Property(name, type_name)
-        fields.append((prop, _converted(mesh.vertices[:, i], prop, in_text)))
-    fields += _attribute_fields("vertex", mesh.vertex_attributes, declared, in_text, AXES)
-    return _ordered(fields, declared)
+        fields.append((prop, converted(mesh.vertices[:, i], prop, in_text=wanted.in_text)))
+    fields += attribute_fields(wanted, mesh.vertex_attributes, set(AXES))
+    return wanted.ordered(fields)
 
 
 def _coordinate_type(values: npt.NDArray[Any], declared: Property | None, in_text: bool) -> str:
@@ -116,135 +145,62 @@ def _coordinate_type(values: npt.NDArray[Any], declared: Property | None, in_tex
         return own
     if in_text and declared.dtype == np.float32:
         return declared.type
-    return declared.type if _fits(values, declared.dtype) else own
+    return declared.type if fits(values, declared.dtype) else own
 
 
-def _fits(values: npt.NDArray[Any], dtype: np.dtype[Any]) -> bool:
-    """Whether `values` come back bit for bit from `dtype`."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        back = values.astype(dtype).astype(values.dtype)
-    return np.ascontiguousarray(values).tobytes() == back.tobytes()
+def _row_fields(element: Rows, wanted: Wanted) -> Fields:
+    """The properties of faces, or of the rows of another element."""
+    lengths = np.diff(element.offsets)
+    fields = _index_fields(element, lengths, wanted)
+    taken = {prop.name for prop, _ in fields}
+    fields += attribute_fields(wanted, element.attributes, taken)
+    fields += corner_fields(wanted, element.corner_attributes, lengths, taken)
+    return wanted.ordered(fields)
 
 
-def _face_fields(mesh: Mesh, wanted: list[Property], in_text: bool) -> Fields:
-    declared = {prop.name: prop for prop in wanted}
-    index = next(
-        (p for p in wanted if p.name in INDEX_NAMES and p.count_type and p.dtype.kind != "f"),
-        Property(INDEX_NAMES[0], "int", "uchar"),
-    )
-    highest = int(mesh.faces.max(initial=0))
-    type_name = next(
-        (name for name in (index.type, "int", "uint") if highest <= np.iinfo(TYPES[name]).max), None
-    )
-    if type_name is None:
-        raise MeshError(f"PLY cannot refer to vertex {highest}")
-    prop = Property(index.name, type_name, index.count_type)
-    lengths = np.full(len(mesh.faces), 3, prop.count_dtype)
-    fields: Fields = [(prop, Lists(lengths, mesh.faces.astype(prop.dtype).ravel()))]
-    fields += _attribute_fields("face", mesh.face_attributes, declared, in_text, (index.name,))
-    return _ordered(fields, declared)
+def _index_fields(element: Rows, lengths: npt.NDArray[np.int64], wanted: Wanted) -> Fields:
+    """What refers to vertices: `vertex1` and `vertex2` where edges have them, else a list."""
+    old = [*wanted.declared.values()]
+    index = [old[i] for i in index_properties(Element(wanted.name, 0, old))]
+    if not index and wanted.name != "face" and not len(element.corners):
+        return []
+    as_ends = len(index) == 2 or (not index and wanted.name == "edge")
+    if as_ends and (lengths == 2).all():
+        index = index or [Property(name, "int") for name in END_NAMES]
+        return [
+            (prop, element.corners[i::2].astype(prop.dtype))
+            for i, prop in enumerate(_wide_enough(prop, element.corners) for prop in index)
+        ]
+    given = index[0] if len(index) == 1 else Property(INDEX_NAMES[0], "int", COUNT_TYPES[0])
+    prop = _wide_enough(given, element.corners)
+    prop.count_type = count_type(int(lengths.max(initial=0)), given)
+    counts = lengths.astype(prop.count_dtype)
+    return [(prop, Lists(counts, element.corners.astype(prop.dtype)))]
 
 
-def _ordered(fields: Fields, declared: dict[str, Property]) -> Fields:
-    """Declared properties in their order, then the others in theirs."""
-    rank = {name: i for i, name in enumerate(declared)}
-    return sorted(fields, key=lambda field: rank.get(field[0].name, len(rank)))
+def _wide_enough(prop: Property, corners: npt.NDArray[Any]) -> Property:
+    """The property in a type that can refer to the highest vertex, its own if that can."""
+    highest = int(corners.max(initial=0))
+    for name in (prop.type, "int", "uint"):
+        if highest <= np.iinfo(TYPES[name]).max:
+            return Property(prop.name, name, prop.count_type)
+    raise MeshError(f"PLY cannot refer to vertex {highest}")
 
 
-def _attribute_fields(
-    owner: str,
-    attributes: dict[str, npt.NDArray[Any]],
-    declared: dict[str, Property],
-    in_text: bool,
-    taken: tuple[str, ...],
-) -> Fields:
-    fields: Fields = []
-    counts = {name for name in attributes if _is_count(name, attributes)}
-    for name, values in attributes.items():
-        if name in counts:
+def _marks(mesh: Mesh, tables: dict[str, tuple[int, Fields]]) -> list[str | bytes]:
+    """Comments about the lists that would be taken for those of corners, or rows, and are not."""
+    marks: list[str | bytes] = []
+    of_corners = {name: element.corner_attributes for name, element in mesh.elements.items()}
+    of_corners["face"] = mesh.corner_attributes
+    offsets = {name: element.offsets for name, element in mesh.elements.items()}
+    offsets["face"] = mesh.offsets
+    for name, (_, fields) in tables.items():
+        if name == "vertex":
             continue
-        if name in taken or not _is_name(name):
-            warn_dropped(f"PLY cannot carry {owner} attribute {name!r} under this name")
-            continue
-        plain = _plain(values)
-        if plain is None:
-            warn_dropped(f"PLY has no type for {owner} attribute {name!r} of {values.dtype}")
-            continue
-        lengths = attributes[name + COUNT_SUFFIX] if name + COUNT_SUFFIX in counts else None
-        fields.append(_attribute_field(name, plain, lengths, declared.get(name), in_text))
-    return fields
-
-
-def _is_name(name: str) -> bool:
-    """Whether `name` is one word of a header."""
-    word = name.encode(errors="replace")
-    return word.split() == [word] and word.decode() == name
-
-
-def _is_count(name: str, attributes: dict[str, npt.NDArray[Any]]) -> bool:
-    """Whether attribute `name` says how long the lists of another one are."""
-    table = attributes.get(name.removesuffix(COUNT_SUFFIX))
-    lengths = attributes[name]
-    if not name.endswith(COUNT_SUFFIX) or table is None or table.ndim != 2 or lengths.ndim != 1:
-        return False
-    if lengths.dtype not in TYPE_NAMES or lengths.dtype.kind == "f":
-        return False
-    if lengths.min(initial=0) < 0 or lengths.max(initial=0) > table.shape[1]:
-        return False
-    return not table[np.arange(table.shape[1]) >= lengths[:, None]].any()
-
-
-def _plain(values: npt.NDArray[Any]) -> npt.NDArray[Any] | None:
-    """The values in a type that PLY has, None where there is none that holds them."""
-    if values.dtype in TYPE_NAMES:
-        return values
-    for code in ("u1", "i4", "u4", "f4", "f8"):
-        suits = code[0] == "f" or values.dtype.kind != "f"
-        if suits and _fits(values, np.dtype(code)):
-            return values.astype(code)
-    return None
-
-
-def _attribute_field(
-    name: str,
-    values: npt.NDArray[Any],
-    lengths: npt.NDArray[Any] | None,
-    declared: Property | None,
-    in_text: bool,
-) -> tuple[Property, Column]:
-    type_name = TYPE_NAMES[values.dtype]
-    if declared and _keeps_dtype(values, declared, in_text):
-        type_name = declared.type
-    prop = Property(name, type_name)
-    if values.ndim == 1:
-        return prop, _converted(values, prop, in_text)
-    table = values.reshape(len(values), -1) if values.size else values.reshape(len(values), 0)
-    prop.count_type = _count_type(table, lengths, declared)
-    if lengths is None:
-        lengths = np.full(len(table), table.shape[1], prop.count_dtype)
-    lists = unpadded(table, lengths)
-    return prop, Lists(lengths.astype(prop.count_dtype), _converted(lists.values, prop, in_text))
-
-
-def _keeps_dtype(values: npt.NDArray[Any], declared: Property, in_text: bool) -> bool:
-    if declared.dtype == values.dtype:
-        return True
-    text_says_more = in_text and declared.dtype == np.float32 and values.dtype == np.float64
-    return text_says_more and rendered(values).dtype == np.float64
-
-
-def _count_type(
-    table: npt.NDArray[Any], lengths: npt.NDArray[Any] | None, declared: Property | None
-) -> str:
-    names = [declared.count_type] if declared and declared.count_type else []
-    if lengths is not None:
-        same = [name for name in names if np.dtype(TYPES[name]) == lengths.dtype]
-        return (same or [TYPE_NAMES[lengths.dtype]])[0]
-    return next(n for n in [*names, "uchar", "int"] if table.shape[1] <= np.iinfo(TYPES[n]).max)
-
-
-def _converted(values: npt.NDArray[Any], prop: Property, in_text: bool) -> npt.NDArray[Any]:
-    """Values in the declared type; in text float64 stays what it is and says more than float."""
-    if in_text and values.dtype == np.float64 and prop.dtype == np.float32:
-        return values
-    return values.astype(prop.dtype)
+        lengths = np.diff(offsets[name])
+        for prop, column in fields:
+            if isinstance(column, Lists) and prop.name not in INDEX_NAMES:
+                is_corner = prop.name in of_corners[name]
+                if is_corner != (column.per_corner(lengths) is not None) and len(column.values):
+                    marks.append(mark(prop.name, name, per_corner=is_corner))
+    return marks

@@ -1,4 +1,4 @@
-"""Polygons given by their corners -> triangles, or a refusal that says what to do."""
+"""Polygons given by their corners: checked, or cut into fans of triangles."""
 
 from collections.abc import Callable
 from typing import Any, TypeAlias
@@ -7,53 +7,65 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.errors import MeshError
+from ebz.codec.mesh import Mesh
+from ebz.formats.dropped import warn_dropped
 
 Place: TypeAlias = Callable[[int], str]
 
 
-def triangles(
-    lengths: npt.NDArray[Any], corners: npt.NDArray[Any], *, triangulate: bool, place: Place
-) -> tuple[npt.NDArray[Any], npt.NDArray[np.intp] | None]:
-    """Faces (m, 3) from polygons of `lengths` corners each, in order.
+def offsets_of(lengths: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
+    """(m + 1,) where the corners of each row begin, from how many each has."""
+    return np.concatenate([[0], np.cumsum(lengths, dtype=np.int64)])
 
-    Returns the faces, and the polygon that each face came from (None where they are the same).
-    A polygon of k corners becomes the fan (0, 1, 2), (0, 2, 3) ... (0, k - 2, k - 1).
-    Raises MeshError, at `place(polygon)`, for fewer than three corners, and for more than three
-    unless `triangulate`.
+
+def row_of(offsets: npt.NDArray[np.int64], corner: int) -> int:
+    """The row that a corner belongs to."""
+    return int(np.searchsorted(offsets, corner, side="right")) - 1
+
+
+def check_indices(
+    corners: npt.NDArray[Any], lengths: npt.NDArray[Any], n_vertices: int, place: Place
+) -> None:
+    """Raises MeshError at the first row that refers to a vertex outside 0 .. n_vertices - 1."""
+    if not corners.size or (corners.min() >= 0 and corners.max() < n_vertices):
+        return
+    at = int(np.argmax((corners < 0) | (corners >= n_vertices)))
+    there = "there are" if n_vertices != 1 else "there is"
+    row = row_of(offsets_of(lengths), at)
+    raise MeshError(f"{place(row)} refers to vertex {corners[at]}, but {there} {n_vertices}")
+
+
+def fanned(mesh: Mesh) -> Mesh:
+    """The mesh with each polygon (0, 1, ..., k - 1) cut into (0, 1, 2), (0, 2, 3), ...
+
+    Attributes of faces are repeated, those of corners follow. Warns of faces with fewer than three
+    corners, which leave no triangle.
     """
-    if not lengths.size or (lengths == 3).all():
-        return corners.reshape(-1, 3), None
-    if lengths.min() < 3:
-        bad = int(np.argmax(lengths < 3))
-        n = int(lengths[bad])
-        raise MeshError(f"{place(bad)} has {n} corner{'s' * (n != 1)}: a face has at least three")
-    if not triangulate:
-        bad = int(np.argmax(lengths > 3))
-        raise MeshError(
-            f"{place(bad)} has {lengths[bad]} corners: only triangles are kept as they are; "
-            "--triangulate cuts polygons into fans of triangles"
-        )
-    return _fans(lengths.astype(np.intp), corners)
+    if mesh.is_triangles:
+        return mesh
+    lengths = np.diff(mesh.offsets)
+    n_short = int(np.count_nonzero(lengths < 3))
+    if n_short:
+        warn_dropped(f"{n_short} faces with fewer than three corners")
+    corner, origin = _fans(mesh.offsets, np.maximum(lengths - 2, 0))
+    return Mesh(
+        mesh.vertices,
+        mesh.faces[corner],
+        mesh.vertex_attributes,
+        {name: values[origin] for name, values in mesh.face_attributes.items()},
+        mesh.metadata,
+        corner_attributes={
+            name: values[corner.ravel()] for name, values in mesh.corner_attributes.items()
+        },
+        elements=mesh.elements,
+    )
 
 
 def _fans(
-    lengths: npt.NDArray[np.intp], corners: npt.NDArray[Any]
-) -> tuple[npt.NDArray[Any], npt.NDArray[np.intp]]:
-    first = np.cumsum(lengths) - lengths
-    n_fan = lengths - 2
-    origin = np.repeat(np.arange(len(lengths)), n_fan)
+    offsets: npt.NDArray[np.int64], n_fan: npt.NDArray[np.int64]
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.intp]]:
+    """The corners (m, 3) of the triangles, and the polygon that each came from."""
+    origin = np.repeat(np.arange(len(n_fan)), n_fan)
     step = np.arange(len(origin)) - np.repeat(np.cumsum(n_fan) - n_fan, n_fan)
-    base = first[origin]
-    corner = np.stack([base, base + step + 1, base + step + 2], axis=1)
-    return corners[corner], origin
-
-
-def check_indices(faces: npt.NDArray[Any], n_vertices: int, place: Place) -> None:
-    """Raises MeshError at the first face that refers to a vertex outside 0 .. n_vertices - 1."""
-    if not faces.size or (faces.min() >= 0 and faces.max() < n_vertices):
-        return
-    row, corner = np.argwhere((faces < 0) | (faces >= n_vertices))[0]
-    there = "there are" if n_vertices != 1 else "there is"
-    raise MeshError(
-        f"{place(int(row))} refers to vertex {faces[row, corner]}, but {there} {n_vertices}"
-    )
+    base = offsets[origin]
+    return np.stack([base, base + step + 1, base + step + 2], axis=1), origin

@@ -47,10 +47,10 @@ LAST_WORD = b"endfacet"
 BLOCK_SIZE = 1 << 20
 
 
-def read_stl(data: bytes, *, triangulate: bool = False) -> Mesh:
+def read_stl(data: bytes) -> Mesh:
     """The welded mesh of an STL file; metadata["stl"] holds its flavour.
 
-    Raises MeshError that names the facet, and the line in ascii. There is nothing to triangulate.
+    Raises MeshError that names the facet, and the line in ascii.
     """
     if data[:HEADER_SIZE].lstrip()[:5].lower() == b"solid" and not is_binary_stl(data):
         return _read_ascii(data)

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from ebz.codec.errors import MeshError
 from ebz.codec.mesh import Mesh
-from ebz.formats.dropped import warn_attributes, warn_dropped
+from ebz.formats.dropped import warn_attributes, warn_dropped, warn_elements
 from ebz.formats.numbers import format_numbers
 from ebz.formats.stl import FACET, HEADER_SIZE
 from ebz.formats.stl_normals import facet_normals
@@ -29,6 +29,8 @@ def write_stl(mesh: Mesh) -> bytes:
     flavour = flavour if isinstance(flavour, dict) else {}
     corners = mesh.vertices[mesh.faces]
     _warn_of_vertices(mesh)
+    warn_attributes("STL", corner=mesh.corner_attributes)
+    warn_elements("STL", mesh)
     left = dict(mesh.face_attributes)
     normals = left.pop("normal", None)
     if normals is None or normals.shape != (len(corners), 3) or normals.dtype.kind != "f":

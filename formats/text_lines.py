@@ -1,11 +1,13 @@
 """Lines of text as arrays: where they are, and how many words each has."""
 
+from itertools import pairwise
+
 import numpy as np
 import numpy.typing as npt
 
 # What bytes.split() takes for white space.
-_WHITE = np.zeros(256, bool)
-_WHITE[[9, 10, 11, 12, 13, 32]] = True
+WHITE = np.zeros(256, bool)
+WHITE[[9, 10, 11, 12, 13, 32]] = True
 BLOCK_LINES = 1 << 16
 
 
@@ -14,7 +16,7 @@ def words_per_line(text: bytes) -> npt.NDArray[np.intp]:
     if not text:
         return np.zeros(0, np.intp)
     characters = np.frombuffer(text, np.uint8)
-    white = _WHITE[characters]
+    white = WHITE[characters]
     begins = ~white
     begins[1:] &= white[:-1]
     ends = np.flatnonzero(characters == 10)
@@ -29,3 +31,13 @@ def line_starts(text: bytes) -> npt.NDArray[np.intp]:
     ends = np.flatnonzero(np.frombuffer(text, np.uint8) == 10) + 1
     starts = np.concatenate([[0], ends])
     return starts if starts[-1] == len(text) else np.append(starts, len(text))
+
+
+def joined_rows(words: list[str], offsets: npt.NDArray[np.int64]) -> list[str]:
+    """The words of each row, offsets[i] to offsets[i + 1], with spaces between them."""
+    lengths = np.diff(offsets)
+    n = int(lengths[0]) if len(lengths) else 0
+    if n and (lengths == n).all():
+        return list(map(" ".join, zip(*[words[i::n] for i in range(n)], strict=True)))
+    bounds = offsets.tolist()
+    return [" ".join(words[start:end]) for start, end in pairwise(bounds)]

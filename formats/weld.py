@@ -1,4 +1,4 @@
-"""Corners of loose triangles -> vertices: one per position, bit-identical positions being one."""
+"""Rows of floats, as corners of loose triangles -> the distinct ones, equal bits being one."""
 
 from typing import Any
 
@@ -12,17 +12,19 @@ _MULTIPLIERS = np.array(
 
 
 def weld(corners: npt.NDArray[Any]) -> tuple[npt.NDArray[Any], npt.NDArray[np.intp]]:
-    """Vertices (n, 3) in the order of their first use, and the vertex of each corner.
+    """The distinct rows (n, width) in the order of their first use, and the one of each row.
 
-    corners: (k, 3) float32 or float64. Bits decide: -0.0 and 0.0 stay apart, equal NaN are one.
+    corners: (k, width), width up to 3, float32 or float64.
+    Bits decide: -0.0 and 0.0 stay apart, equal NaN are one.
     """
     bits = np.ascontiguousarray(corners).view(f"u{corners.dtype.itemsize}").astype(np.uint64)
     mixed = bits ^ (bits >> np.uint64(29))
-    keys = (mixed * _MULTIPLIERS).sum(axis=1, dtype=np.uint64)
+    keys = (mixed * _MULTIPLIERS[: bits.shape[1]]).sum(axis=1, dtype=np.uint64)
     keys ^= keys >> np.uint64(32)
     first, inverse = _unique(keys)
     if not np.array_equal(bits[first[inverse]], bits):
-        first, inverse = _unique(np.ascontiguousarray(bits).view("u8,u8,u8")[:, 0])
+        record = ",".join(["u8"] * bits.shape[1] + [""])  # a comma makes it one, even of one
+        first, inverse = _unique(np.ascontiguousarray(bits).view(record)[:, 0])
     order = np.argsort(first)
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))

@@ -180,9 +180,11 @@ def assert_same(a: Mesh, b: Mesh, *, header: bool = True) -> None:
     assert a.vertices.dtype == b.vertices.dtype
     assert a.vertices.tobytes() == b.vertices.tobytes()
     assert a.faces.tobytes() == b.faces.tobytes()
+    assert a.offsets.tobytes() == b.offsets.tobytes()
     for ours, theirs in (
         (a.vertex_attributes, b.vertex_attributes),
         (a.face_attributes, b.face_attributes),
+        (a.corner_attributes, b.corner_attributes),
     ):
         assert ours.keys() == theirs.keys()
         for name, values in ours.items():
@@ -228,7 +230,7 @@ def test_lists_become_tables_padded_where_ragged() -> None:
     assert mesh.vertex_attributes["ragged"].tolist() == [[0, 0, 0], [1, -2, 0]]
     assert mesh.vertex_attributes["ragged:count"].tolist() == [0, 3]
     assert mesh.vertex_attributes["ragged:count"].dtype == np.uint16
-    assert mesh.face_attributes["texcoord"].shape == (2, 6)
+    assert mesh.corner_attributes["texcoord"][[0, 5]].tolist() == [[1, 2], [2, 1]]
     assert mesh.face_attributes["weights"].tolist() == [[0.1, 0.0], [0.2, 0.3]]
     assert mesh.faces.tolist() == [[0, 1, 1], [1, 0, 0]]
 
@@ -267,16 +269,6 @@ def test_a_float64_mesh_stays_one_in_a_float_flavour(flavour: str) -> None:
 def test_blank_lines_in_the_body_are_passed_over() -> None:
     data = ASCII_FILES["plain"].encode().replace(b"1 0 -0\n", b"\n1 0 -0\n \n")
     assert_same(read_mesh(data), read_mesh(ASCII_FILES["plain"].encode()))
-
-
-def test_other_elements_are_named_when_they_are_dropped() -> None:
-    data = ASCII_FILES["plain"].replace(
-        "end_header", "element edge 2\nproperty int a\ncomment c\nend_header"
-    )
-    with pytest.warns(DroppedWarning, match="^element 'edge' with 2 rows$"):
-        mesh = read_mesh(f"{data}1\n2\n".encode())
-    assert mesh.metadata["ply"]["header"][-1] == "comment c"
-    assert b"edge" not in write_mesh(mesh, "ply")
 
 
 @pytest.mark.parametrize(("extra", "what"), [(b"1 2\n\n3\n", "2 lines"), (b"\n\n", None)])
@@ -318,14 +310,16 @@ end_header
 
 
 @pytest.mark.parametrize("flavour", FORMATS)
-def test_polygons_are_fanned_on_request_with_their_attributes(flavour: str) -> None:
+def test_polygons_are_kept_or_fanned_with_their_attributes(flavour: str) -> None:
     data = polygons(flavour)
     mesh = read_mesh(data, triangulate=True)
     fans = [[0, 1, 2], [0, 1, 2], [0, 2, 3], [0, 3, 4], [3, 2, 1], [3, 1, 0]]
     assert mesh.faces.tolist() == fans
     assert mesh.face_attributes["red"].tolist() == [7, 8, 8, 8, 9, 9]
-    with pytest.raises(MeshError, match=r"^face 1 has 5 corners: .*--triangulate"):
-        read_mesh(data)
+    mesh = read_mesh(data)
+    assert mesh.faces.tolist() == [0, 1, 2, 0, 1, 2, 3, 4, 3, 2, 1, 0]
+    assert mesh.face_offsets is not None and mesh.face_offsets.tolist() == [0, 3, 8, 12]
+    assert write_mesh(mesh, "ply") == data
 
 
 def polygons(flavour: str) -> bytes:

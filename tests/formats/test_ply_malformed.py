@@ -103,12 +103,19 @@ MALFORMED = [
     ),
     (edited("3 0 1 1", "3 0 1 2"), "face 0 refers to vertex 2, but there are 2"),
     (edited("3 0 1 1", "3 0 1 -1"), "face 0 refers to vertex -1, but there are 2"),
-    (edited("3 0 1 1", "2 0 1"), "face 0 has 2 corners: a face has at least three"),
-    (edited("3 0 1 1", "0"), "face 0 has 0 corners: a face has at least three"),
     (
-        edited("3 0 1 1", "4 0 1 1 0"),
-        "face 0 has 4 corners: only triangles are kept as they are; "
-        "--triangulate cuts polygons into fans of triangles",
+        edited("end_header", "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
+               "end_header") + b"1 2\n",
+        "element 'edge': row 0 refers to vertex 2, but there are 2",
+    ),
+    (
+        edited("end_header", "element grid 2\nproperty list uchar int vertex_indices\n"
+               "end_header") + b"0\n1 7\n",
+        "element 'grid': row 1 refers to vertex 7, but there are 2",
+    ),
+    (
+        edited("end_header", "element user 9\nend_header"),
+        "element 'user': 9 rows without properties",
     ),
     (LITTLE, "element 'vertex': row 0: property 'x': early end of file"),
     (LITTLE + VERTICES[:11], "element 'vertex': row 0: property 'z': early end of file"),

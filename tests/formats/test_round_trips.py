@@ -8,9 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ebz.codec.elements import rows
 from ebz.codec.errors import DroppedWarning
 from ebz.codec.mesh import Mesh
 from ebz.formats.meshes import read_mesh, write_mesh
+from tests.formats.carried import contents, obj_meshes, ply_meshes, row_set
 
 COORDINATES = {
     "everyday": lambda rng, n: rng.standard_normal((n, 3)),
@@ -73,20 +75,7 @@ def table(draw: st.DrawFn, rng: np.random.Generator, n: int) -> dict[str, np.nda
 
 
 def assert_same(again: Mesh, mesh: Mesh) -> None:
-    assert bits(again.vertices) == bits(mesh.vertices)
-    assert bits(again.faces) == bits(mesh.faces)
-    assert_same_attributes(again.vertex_attributes, mesh.vertex_attributes)
-    assert_same_attributes(again.face_attributes, mesh.face_attributes)
-
-
-def assert_same_attributes(ours: dict[str, Any], theirs: dict[str, Any]) -> None:
-    assert {name: bits(values) for name, values in ours.items() if values.size} == {
-        name: bits(values) for name, values in theirs.items() if values.size
-    }
-
-
-def bits(values: np.ndarray) -> tuple[Any, ...]:
-    return values.dtype, values.shape, values.tobytes()
+    assert contents(again) == contents(mesh)
 
 
 @pytest.mark.parametrize("flavour", PLY_FORMATS)
@@ -98,6 +87,27 @@ def test_ply_keeps_everything(flavour: str, mesh: Mesh) -> None:
     assert_same(again, mesh)
     assert write_mesh(again, "ply") == data
     assert read_mesh(write_mesh(again, "ply")).metadata == again.metadata
+
+
+@pytest.mark.parametrize("flavour", PLY_FORMATS)
+@given(mesh=ply_meshes())
+def test_ply_keeps_polygons_corners_and_elements(flavour: str, mesh: Mesh) -> None:
+    mesh.metadata["ply"] = {"format": flavour, "header": []}
+    data = write_mesh(mesh, "ply")
+    again = read_mesh(data)
+    assert_same(again, mesh)
+    assert write_mesh(again, "ply") == data
+
+
+@given(mesh=obj_meshes())
+def test_obj_keeps_all_that_it_has(mesh: Mesh) -> None:
+    data = write_mesh(mesh, "obj")
+    again = read_mesh(data, format="obj")
+    assert again.metadata == mesh.metadata
+    for kind in ("face", *mesh.elements):
+        assert row_set(again, kind) == row_set(mesh, kind)
+    assert write_mesh(again, "obj") == data
+    assert_same(read_mesh(data, format="obj"), again)
 
 
 @pytest.mark.parametrize("format", ["obj", "off"])
@@ -167,6 +177,12 @@ def test_colours_come_back_from_obj(mesh: Mesh) -> None:
     ("format", "flavour", "message"),
     [
         ("obj", {}, "OBJ cannot carry vertex attributes: 'a'"),
+        ("obj", {}, "OBJ cannot carry face corner attributes: 'c'"),
+        ("obj", {}, "OBJ cannot carry elements: 'edge'"),
+        ("off", {}, "OFF cannot carry corner attributes: 'c'"),
+        ("off", {}, "OFF cannot carry elements: 'edge' (2)"),
+        ("stl", {}, "STL cannot carry corner attributes: 'c'"),
+        ("stl", {}, "STL cannot carry elements: 'edge' (2)"),
         ("obj", {}, "OBJ cannot carry face attributes: 'b', 'rgb'"),
         ("off", {}, "OFF cannot carry vertex attributes: 'a'"),
         ("off", {}, "OFF cannot carry face attributes: 'b'"),
@@ -193,6 +209,8 @@ def test_what_a_format_cannot_carry_is_named(
         {"a": np.zeros(5, np.uint8)},
         {"b": np.zeros(2, np.uint8), "rgb": np.zeros((2, 3), np.uint8)},
         {"stl": flavour},
+        corner_attributes={"c": np.zeros(6, np.uint8)},
+        elements={"edge": rows(2, {})},
     )
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
