@@ -58,6 +58,14 @@ def encode_positions(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,
 def decode_positions(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int, method: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
     """The 3n lattice values."""
 
+def encode_points(values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[bytes, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    The bytes of a set of points, 3n lattice values, and where those decoded come from.
+    """
+
+def decode_points(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """The 3n lattice values."""
+
 def encode_splits(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_points: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
     """Which corners at each point belong to which vertex."""
 

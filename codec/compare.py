@@ -12,9 +12,18 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import connectivity, matching, welding
+from ebz.codec import points as free_points
 from ebz.codec.elements import Element
 from ebz.codec.errors import EbzError
-from ebz.codec.lattice import BoxLattice, GridLattice, Lattice, StepLattice, fit, restore
+from ebz.codec.lattice import (
+    BoxLattice,
+    GridLattice,
+    Lattice,
+    Points,
+    StepLattice,
+    fit,
+    restore,
+)
 from ebz.codec.mesh import Mesh
 
 Order = npt.NDArray[Any]
@@ -203,11 +212,13 @@ def _by_order(decoded: Mesh, original: Mesh) -> _Correspondence | str:
 
 
 def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence | None:
-    welded = welding.weld(original.faces, _as_stored(original.vertices, lattice))
+    points = _points(original.vertices, lattice)
+    stored = _restored(points, original.vertices)
+    welded = welding.weld(original.faces, stored)
     surface, order = connectivity.traverse(welded, len(original.vertices))
-    order = replace(
-        order, vertices=welding.arrange(original.faces, welded, surface, order).vertices
-    )
+    arrangement = welding.arrange(original.faces, welded, surface, order)
+    arrangement, _ = free_points.encode(arrangement, points.integers)
+    order = replace(order, vertices=arrangement.vertices)
     number = np.empty(len(order.vertices), np.int64)
     number[order.vertices] = np.arange(len(order.vertices))
     faces = number[original.faces[order.faces]]
@@ -285,15 +296,22 @@ def _cannot_be_allowed(
 
 def _as_stored(vertices: npt.NDArray[Any], lattice: Lattice) -> npt.NDArray[Any]:
     """The coordinates that compressing at the same precision would store."""
-    lossy = BoxLattice | StepLattice | GridLattice
-    if not isinstance(lattice, lossy) or not np.isfinite(vertices).all():
-        return vertices
-    if isinstance(lattice, GridLattice):
-        points = fit(vertices, grid=lattice)
-    elif isinstance(lattice, BoxLattice):
-        points = fit(vertices, bits=lattice.bits)
-    else:
-        points = fit(vertices, max_error=lattice.max_error)
+    return _restored(_points(vertices, lattice), vertices)
+
+
+def _points(vertices: npt.NDArray[Any], lattice: Lattice) -> Points:
+    """The points of compressing at the same precision."""
+    if np.isfinite(vertices).all():
+        if isinstance(lattice, GridLattice):
+            return fit(vertices, grid=lattice)
+        if isinstance(lattice, BoxLattice):
+            return fit(vertices, bits=lattice.bits)
+        if isinstance(lattice, StepLattice):
+            return fit(vertices, max_error=lattice.max_error)
+    return fit(vertices)
+
+
+def _restored(points: Points, vertices: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return restore(points, vertices.dtype, vertices.reshape(-1)[points.exceptions])
 
 

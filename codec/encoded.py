@@ -68,6 +68,7 @@ class Streams:
     gluing: bytes
     splits: bytes | None  # None: no position is shared
     positions: bytes
+    points: bytes | None  # None: vertices in no face are among the positions
     exception_rows: bytes
     exception_values: bytes
     order: OrderStreams

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from ebz.codec import connectivity, lattice, metadata, positions, welding
 from ebz.codec import order as source_order
+from ebz.codec import points as free_points
 from ebz.codec.arrays import Attributes, face_dtype
 from ebz.codec.attributes import coding, corners, rows
 from ebz.codec.attributes.items import Sites
@@ -85,10 +86,16 @@ def encode(
     welded = welding.weld(mesh.faces, stored)
     word, surface, order = connectivity.encode(welded, len(stored), models)
     arrangement = welding.arrange(mesh.faces, welded, surface, order)
-    order = replace(order, vertices=arrangement.vertices)
     report("positions", 2, N_STAGES)
+    free = None
+    if not keep_order:
+        arrangement, free = free_points.encode(arrangement, points.integers)
+    order = replace(order, vertices=arrangement.vertices)
     points = points.take(arrangement.sites)
-    stream, method = positions.encode(surface, points, stored.dtype, position_method(level))
+    n_along = len(arrangement.sites) if free is None else surface.n_vertices
+    stream, method = positions.encode(
+        surface, points, n_along, stored.dtype, position_method(level)
+    )
     exact = mesh.vertices[arrangement.sites].reshape(-1)[points.exceptions]
     report("attributes", 3, N_STAGES)
     keep_rotation = keeps_rotation(mesh.face_attributes)
@@ -109,7 +116,8 @@ def encode(
             special_integers=word.special_integers,
             gluing=word.gluing,
             splits=arrangement.splits,
-            positions=stream,
+            positions=stream if n_along else b"",
+            points=free,
             exception_rows=encode_columns(gaps(points.exceptions)),
             exception_values=_encode_values(exact),
             order=source_order.encode(kept, known),
@@ -142,7 +150,11 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     with corrupt_at(encoded.place("word" if streams.splits is None else "splits")):
         split = welding.split(surface, streams.splits, n_vertices)
     report("positions", 1, N_STAGES)
-    integers = positions.decode(streams.positions, surface, split.n_sites, encoded.method)
+    n_along = split.n_sites if streams.points is None else surface.n_vertices
+    integers = positions.decode(streams.positions, surface, n_along, encoded.method)
+    with corrupt_at(encoded.place("points")):
+        free = free_points.decode(streams.points, split.n_sites - n_along)
+    integers = np.concatenate([integers, free])
     report("lattice", 2, N_STAGES)
     with corrupt_at(encoded.place("exceptions")):
         points = Points(encoded.lattice, integers, _decode_exceptions(encoded, split.n_sites))

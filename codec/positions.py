@@ -28,12 +28,15 @@ FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 
 
 def encode(
-    surface: Surface, points: Points, dtype: np.dtype[Any], method: Method
+    surface: Surface, points: Points, n_along: int, dtype: np.dtype[Any], method: Method
 ) -> tuple[bytes, Method]:
-    """The shortest stream by the method, or by those that suit a lattice of floats."""
-    values = points.integers.reshape(-1)
+    """The shortest stream by the method, or by those that suit a lattice of floats.
+
+    n_along: how many points are coded, the first; those past the surface have no neighbours.
+    """
+    values = points.integers[:n_along].reshape(-1)
     streams = [
-        (_kernels.encode_positions(*_arrays(surface), len(points.integers), values, chosen), chosen)
+        (_kernels.encode_positions(*_arrays(surface), n_along, values, chosen), chosen)
         for chosen in _candidates(points, dtype, method)
     ]
     return min(streams, key=lambda pair: len(pair[0]))

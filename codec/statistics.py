@@ -92,7 +92,7 @@ def describe(
     n_piece_vertices = len(surface.vertex_of_piece)
     euler = n_piece_vertices - n_edges + n_faces
     connectivity = _total(chunk_sizes, "word", "model", "special S", "gluing", "splits")
-    geometry = _total(chunk_sizes, "positions", "exceptions")
+    geometry = _total(chunk_sizes, "positions", "points", "exceptions")
     order = _total(chunk_sizes, "vertex order", "face order", "rotations")
     attributes = _total(
         chunk_sizes,

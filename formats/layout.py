@@ -39,7 +39,7 @@ VERSION = 2
 
 # Chunk types: upper case is required to decode, a reader skips what it does not know in lower case.
 HEADER, MODEL, WORD, SPECIALS, GLUING = b"H", b"M", b"W", b"S", b"G"
-SPLITS, POSITIONS, EXCEPTIONS = b"I", b"P", b"X"
+SPLITS, POSITIONS, POINTS, EXCEPTIONS = b"I", b"P", b"Q", b"X"
 VERTEX_ORDER, FACE_ORDER, ROTATIONS = b"N", b"O", b"R"
 VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, CORNER_ATTRIBUTE, ELEMENT = b"V", b"F", b"C", b"E"
 METADATA, END = b"D", b"Z"
@@ -52,6 +52,7 @@ NAMES = {
     GLUING: "gluing",
     SPLITS: "splits",
     POSITIONS: "positions",
+    POINTS: "points",
     EXCEPTIONS: "exceptions",
     VERTEX_ORDER: "vertex order",
     FACE_ORDER: "face order",

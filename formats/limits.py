@@ -35,7 +35,9 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
         n_split = 3 * counts.n_faces if streams.splits is not None else 0
         n_coded = max(0, encoded.n_vertices - n_split)
-        _check("vertices", n_coded, 3 * CHEAPEST_DECISION, streams.positions)
+        _check(
+            "vertices", n_coded, 3 * CHEAPEST_DECISION, streams.positions + (streams.points or b"")
+        )
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
     _check_order("face order", counts.n_faces - 1, streams.order.faces, encoded)
     _check_order("rotations", counts.n_faces, streams.order.rotations, encoded)

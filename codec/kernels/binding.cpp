@@ -13,6 +13,7 @@
 #include "integers.hpp"
 #include "lattices.hpp"
 #include "order/permutations.hpp"
+#include "points/octree.hpp"
 #include "positions/positions.hpp"
 #include "splits.hpp"
 #include "text.hpp"
@@ -164,6 +165,15 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
         ebz::positions::decode(view(bytes), surface, static_cast<ebz::positions::Method>(method), values);
         return values;
     }));
+}
+
+std::tuple<nb::bytes, Array<int32_t>> encode_points(const Input<int64_t>& values) {
+    ebz::points::Encoded encoded = without_gil([&] { return ebz::points::encode(view(values)); });
+    return {to_bytes(encoded.bytes), to_numpy(std::move(encoded.order))};
+}
+
+Array<int64_t> decode_points(const Input<uint8_t>& bytes, int32_t n) {
+    return to_numpy(without_gil([&] { return ebz::points::decode(view(bytes), static_cast<size_t>(n)); }));
 }
 
 nb::bytes encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& point, int32_t n_points,
@@ -341,6 +351,9 @@ NB_MODULE(_kernels, m) {
           "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
           "method"_a, "The 3n lattice values.");
+    m.def("encode_points", &encode_points, "values"_a,
+          "The bytes of a set of points, 3n lattice values, and where those decoded come from.");
+    m.def("decode_points", &decode_points, "data"_a, "n"_a, "The 3n lattice values.");
     m.def("encode_splits", &encode_splits, "opposite"_a, "point"_a, "n_points"_a, "vertex"_a,
           "Which corners at each point belong to which vertex.");
     m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,

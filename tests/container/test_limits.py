@@ -96,7 +96,9 @@ def test_a_limit_of_what_is_announced_is_enough():
 def test_absurd_files_take_little_memory(tmp_path, name):
     """Counts as large as the streams could hold, streams of zeros that hold very much."""
     data, path = files()[name], tmp_path / "absurd.ebz"
-    zeros = [(kind, bytes(20_000) if kind in b"WPSG" else payload) for kind, payload in split(data)]
+    zeros = [
+        (kind, bytes(20_000) if kind in b"WPQSG" else payload) for kind, payload in split(data)
+    ]
     for absurd in (
         with_header(data, n_vertices=2**31 - 2),
         with_header(data, n_symbols=2**29, n_closed=0),
