@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import sample
-from samples import surfaces
+from samples import surfaces, texts
 from samples.writers import ascii_stl, binary_stl, obj, off, ply
 
 Array = npt.NDArray[Any]
@@ -144,36 +144,9 @@ def carried() -> dict[str, bytes]:
             vertex_properties=channels | quality,
             face_properties=labels,
         ),
-        "property_order.ply": PROPERTY_ORDER,
+        "property_order.ply": texts.PROPERTY_ORDER,
+        "texcoord.ply": texts.TEXCOORD,
     }
-
-
-PROPERTY_ORDER = b"""ply
-format ascii 1.0
-comment coordinates last and out of order, a list on the vertices, the other name of the indices
-obj_info a square
-element vertex 4
-property uchar flag
-property list uchar short near
-property double z
-property double y
-property double x
-element face 2
-property short group
-property list uint8 uint vertex_index
-property float area
-element edge 1
-property int vertex1
-property int vertex2
-end_header
-0 2 1 3 0.5 0 0
-1 1 0 0.25 0 1
-0 0 0.125 1 1
-1 3 0 1 2 0.1 1 0
-7 3 0 1 2 0.5
--7 3 0 2 3 0.5
-0 2
-"""
 
 
 def flavours() -> dict[str, bytes]:
@@ -186,60 +159,12 @@ def flavours() -> dict[str, bytes]:
             sphere.vertices, sphere.faces, "solid by name, binary all the same"
         ),
         "plain.obj": obj(sphere.vertices, sphere.faces),
-        "corners.obj": CORNERS,
-        "polygons.obj": POLYGONS,
+        "corners.obj": texts.CORNERS,
+        "polygons.obj": texts.POLYGONS,
+        "materials.obj": texts.MATERIALS,
         "plain.off": off(sphere.vertices, sphere.faces),
-        "colours.off": COLOURS,
+        "colours.off": texts.COLOURS,
     }
-
-
-CORNERS = b"""# all kinds of corners, relative indices, groups, a continued line
-o square
-v 0 0 0
-v 1 0 0
-v 1 1 0.1
-vt 0 0
-vt 1 0
-vt 1 1
-vn 0 0 1
-g lower
-f 1/1/1 2/2/1 3/3/1
-v 0 1 1e-3
-g upper
-s 1
-f -4//1 \\
-  -2//1 -1//1
-"""
-
-POLYGONS = b"""# a cube without its lid, and a pentagon: needs --triangulate
-v 0 0 0
-v 1 0 0
-v 1 1 0
-v 0 1 0
-v 0 0 1
-v 1 0 1
-v 1 1 1
-v 0 1 1
-v 0.5 2 1
-f 4 3 2 1
-f 1 2 6 5
-f 2 3 7 6
-f 4 1 5 8
-f 3 4 8 9 7
-"""
-
-COLOURS = b"""COFF
-# vertex colours, face colours, comments and blank lines
-
-4 2 5
-0 0 0 255 0 0 255
-1 0 0 0 255 0 255  # green
-1 1 0 0 0 255 255
-0 1 0.5 9 9 9 128
-
-3 0 1 2 200 100 50
-3 0 2 3
-"""
 
 
 def _ply(surface: surfaces.Surface) -> bytes:
