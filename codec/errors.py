@@ -1,8 +1,5 @@
 """The errors of ebz, told apart by what a caller can do about them."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 
 class EbzError(Exception):
     """Anything that ebz reports about its input; the message names the place.
@@ -39,13 +36,18 @@ class CorruptError(EbzError):
     """The data contradicts a checksum or itself; the message names chunk and offset."""
 
 
-@contextmanager
-def corrupt_at(place: str) -> Iterator[None]:
+class corrupt_at:  # noqa: N801 (used like a function)
     """Put the place in front of the message of a CorruptError that is raised within."""
-    try:
-        yield
-    except CorruptError as error:
-        raise CorruptError(f"{place}: {error.message}") from None
+
+    def __init__(self, place: str) -> None:
+        self._place = place
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, traceback: object) -> None:
+        if isinstance(error, CorruptError):
+            raise CorruptError(f"{self._place}: {error.message}") from None
 
 
 class VersionError(EbzError):

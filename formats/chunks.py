@@ -3,7 +3,6 @@
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import BytesIO
 
 from ebz.codec.errors import CorruptError, NotEbzError, TruncatedError, VersionError
 from ebz.formats import layout
@@ -29,8 +28,8 @@ class Chunk:
 
 def write(kind: bytes, payload: bytes) -> bytes:
     """The bytes of one chunk."""
-    body = layout.build(layout.ChunkHead, {"type": kind, "length": len(payload)}) + payload
-    return body + layout.build(layout.CRC32, zlib.crc32(body))
+    body = kind + layout.varint(len(payload)) + payload
+    return body + zlib.crc32(body).to_bytes(CRC_SIZE, "little")
 
 
 def start() -> bytes:
@@ -68,21 +67,21 @@ def _check_start(data: memoryview) -> int:
 
 
 def _read_one(data: memoryview, offset: int) -> Chunk:
-    stream = BytesIO(data[offset : offset + MAX_HEAD])
+    kind = bytes(data[offset : offset + 1])
     try:
-        head = layout.ChunkHead.parse_stream(stream)
-    except layout.Malformed:
-        if offset + MAX_HEAD <= len(data):
-            raise CorruptError(f"chunk at offset {offset}: its length is malformed") from None
+        length, size = layout.read_varint(data[offset + 1 : offset + MAX_HEAD])
+    except ValueError:
+        raise CorruptError(f"chunk at offset {offset}: its length is malformed") from None
+    except IndexError:
         raise TruncatedError(f"the file ends at byte {len(data)}, within a chunk head") from None
-    start, end = offset + stream.tell(), offset + stream.tell() + head.length
+    start, end = offset + 1 + size, offset + 1 + size + length
     if end + CRC_SIZE > len(data):
         missing = end + CRC_SIZE - len(data)
-        name = head.type.decode("latin-1")
+        name = kind.decode("latin-1")
         raise TruncatedError(
             f"chunk {name!r} at offset {offset}: the file ends {missing} bytes too early"
         )
-    chunk = Chunk(head.type, bytes(data[start:end]), offset, end + CRC_SIZE - offset)
+    chunk = Chunk(kind, bytes(data[start:end]), offset, end + CRC_SIZE - offset)
     if zlib.crc32(data[offset:end]) != int.from_bytes(data[end : end + CRC_SIZE], "little"):
         raise CorruptError(f"{chunk.where}: checksum mismatch")
     return chunk

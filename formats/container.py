@@ -1,6 +1,7 @@
 """.ebz bytes <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -130,7 +131,7 @@ def _parse(
     elements: list[EncodedElement],
 ) -> EncodedMesh:
     with corrupt_at(found[layout.HEADER].where):
-        header = layout.parse(layout.Header, found[layout.HEADER].payload)
+        header = SimpleNamespace(**layout.parse(layout.Header, found[layout.HEADER].payload))
         _check_header(header)
         coordinates, method = _parse_lattice(header), _parse_method(header)
     _check_presence(header, found)
@@ -139,8 +140,7 @@ def _parse(
         return found[kind].payload if kind in found else b""
 
     places = {layout.NAMES[kind]: chunk.where for kind, chunk in found.items()}
-    with corrupt_at(places.get("exceptions", "exceptions")):
-        exceptions = layout.parse(layout.Exceptions, payload(layout.EXCEPTIONS) or b"\0")
+    exception_rows, exception_values = _parse_exceptions(found.get(layout.EXCEPTIONS))
     return EncodedMesh(
         dtype=np.dtype(f"f{header.itemsize}"),
         counts=WordCounts(
@@ -158,8 +158,8 @@ def _parse(
             splits=found[layout.SPLITS].payload if layout.SPLITS in found else None,
             positions=payload(layout.POSITIONS),
             points=found[layout.POINTS].payload if layout.POINTS in found else None,
-            exception_rows=exceptions.rows,
-            exception_values=exceptions.exact,
+            exception_rows=exception_rows,
+            exception_values=exception_values,
             order=OrderStreams(
                 *(found[kind].payload if kind in found else None for kind in ORDER_CHUNKS)
             ),
@@ -172,6 +172,14 @@ def _parse(
         digest=payload(layout.END),
         places=places,
     )
+
+
+def _parse_exceptions(chunk: Chunk | None) -> tuple[bytes, bytes]:
+    if chunk is None:
+        return b"", b""
+    with corrupt_at(chunk.where):
+        parsed = layout.parse(layout.Exceptions, chunk.payload)
+    return parsed.rows, parsed.exact
 
 
 def _text(chunk: Chunk | None) -> EncodedText | None:
@@ -210,7 +218,7 @@ def _check_header(header: Any) -> None:
         raise VersionError(f"header: unknown model {header.model}")
     if header.lattice >= len(layout.LATTICE_KINDS):
         raise VersionError(f"header: unknown lattice {header.lattice}")
-    for name, count in header.items():
+    for name, count in vars(header).items():
         if name.startswith("n_") and count >= MAX_COUNT:
             raise CorruptError(f"{name} is {count}, past the limit of 2^63")
     if header.n_vertices > MAX_VERTICES:
@@ -248,9 +256,10 @@ def _parse_method(header: Any) -> Method:
     in_floats = FLOAT_METHODS[header.itemsize]
     if header.method in FLOAT_METHODS.values() and header.method != in_floats:
         raise CorruptError(f"positions of {header.itemsize} bytes by method {header.method}")
-    if header.method not in list(Method):
-        raise VersionError(f"header: unknown method {header.method} of positions")
-    return Method(header.method)
+    try:
+        return Method(header.method)
+    except ValueError:
+        raise VersionError(f"header: unknown method {header.method} of positions") from None
 
 
 def _parse_lattice(header: Any) -> Lattice:

@@ -7,8 +7,8 @@ from construct import (
     Byte,
     Bytes,
     Check,
+    Construct,
     ConstructError,
-    ExprAdapter,
     Float32l,
     Float64l,
     GreedyBytes,
@@ -16,12 +16,11 @@ from construct import (
     IfThenElse,
     Int8ul,
     Int16ul,
-    Int32ul,
     IntegerError,
     Pass,
     Prefixed,
     PrefixedArray,
-    RepeatUntil,
+    StreamError,
     Struct,
     Switch,
     Terminated,
@@ -70,25 +69,44 @@ NAMES = {
 MAX_VARINT = 10
 
 
-def _from_sevens(sevens: list[int], _: Any) -> int:
-    if sevens[-1] >= 0x80:
-        raise IntegerError(f"an integer of more than {MAX_VARINT} bytes")
-    return sum((byte & 0x7F) << 7 * i for i, byte in enumerate(sevens))
+class _VarInt(Construct):  # type: ignore[misc]
+    def _parse(self, stream: Any, context: Any, path: str) -> int:
+        start = stream.tell()
+        try:
+            value, size = read_varint(stream.read(MAX_VARINT))
+        except IndexError:
+            raise StreamError("the data ends within an integer", path) from None
+        except ValueError as error:
+            raise IntegerError(str(error), path) from None
+        stream.seek(start + size)
+        return value
+
+    def _build(self, value: int, stream: Any, context: Any, path: str) -> int:
+        stream.write(varint(value))
+        return value
 
 
-def _to_sevens(value: int, _: Any) -> list[int]:
+def read_varint(data: bytes | memoryview) -> tuple[int, int]:
+    """The integer at the start of data, and its size in bytes.
+
+    Raises IndexError where the data ends within it and ValueError where it is too long.
+    """
+    value = 0
+    for i in range(MAX_VARINT):
+        byte = data[i]
+        value |= (byte & 0x7F) << 7 * i
+        if byte < 0x80:
+            return value, i + 1
+    raise ValueError(f"an integer of more than {MAX_VARINT} bytes")
+
+
+def varint(value: int) -> bytes:
+    """The bytes of an integer."""
     n = max(1, -(-value.bit_length() // 7))
-    return [value >> 7 * i & 0x7F | (0x80 if i < n - 1 else 0) for i in range(n)]
+    return bytes(value >> 7 * i & 0x7F | (0x80 if i < n - 1 else 0) for i in range(n))
 
 
-VarInt = ExprAdapter(
-    RepeatUntil(lambda byte, bytes, _: byte < 0x80 or len(bytes) == MAX_VARINT, Byte),
-    _from_sevens,
-    _to_sevens,
-)
-
-ChunkHead = Struct("type" / Bytes(1), "length" / VarInt)
-CRC32 = Int32ul
+VarInt = _VarInt()
 
 LATTICE_KINDS = ("float", "decimal", "box", "step", "grid")
 DTYPE_SIZES = (4, 8)

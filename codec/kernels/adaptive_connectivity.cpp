@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "connectivity.hpp"
-#include "direct_model.hpp"
+#include "direct_word.hpp"
 #include "errors.hpp"
 #include "mixed_model.hpp"
 #include "special_coder.hpp"
@@ -73,12 +73,22 @@ private:
 
 template <class Coder>
 Reverse code_word(Effort effort, Coder& coder, const WordHeader& header, Index n_specials, Symbols& word) {
-    switch (effort) {
-        case Effort::direct: return WordCoder<DirectModel, Coder>(coder, header, n_specials, word).run();
-        case Effort::fast:
-            return WordCoder<MixedModel<FastContexts>, Coder>(coder, header, n_specials, word).run();
-        default: return WordCoder<MixedModel<StrongContexts>, Coder>(coder, header, n_specials, word).run();
+    if (effort == Effort::fast) return WordCoder<MixedModel<FastContexts>, Coder>(coder, header, n_specials, word).run();
+    return WordCoder<MixedModel<StrongContexts>, Coder>(coder, header, n_specials, word).run();
+}
+
+// Calls work with the coder that the effort takes and what has been coded.
+template <class Ans, class Range, class Work>
+auto with_coder(Effort effort, const WordHeader& header, Index n_specials, Symbols& word, Work work, auto... source) {
+    if (effort == Effort::direct) {
+        Ans ans(source...);
+        using Coder = SingleLane<Ans>;
+        Reverse reverse = DirectWord<Coder>(Coder(ans), header, n_specials, word.symbols, word.specials).run();
+        return work(ans, reverse);
     }
+    Range coder(source...);
+    Reverse reverse = code_word(effort, coder, header, n_specials, word);
+    return work(coder, reverse);
 }
 
 }  // namespace
@@ -86,20 +96,19 @@ Reverse code_word(Effort effort, Coder& coder, const WordHeader& header, Index n
 std::vector<uint8_t> encode_adaptive(std::span<const uint8_t> symbols, const WordHeader& header,
                                      std::span<const SpecialS> specials, Effort effort) {
     Symbols word{{symbols.begin(), symbols.end()}, {specials.begin(), specials.end()}};
-    RangeEncoder coder;
-    code_word(effort, coder, header, static_cast<Index>(specials.size()), word);
-    return coder.finish();
+    return with_coder<ans::Encoder<1>, RangeEncoder>(effort, header, static_cast<Index>(specials.size()), word,
+                                                     [](auto& coder, Reverse&) { return coder.finish(); });
 }
 
 AdaptivelyDecoded decode_adaptive(std::span<const uint8_t> bytes, const WordHeader& header, Index n_specials,
                                   Effort effort) {
     Symbols word{std::vector<uint8_t>(header.n_symbols), {}};
-    RangeDecoder coder(bytes);
-    Reverse reverse = code_word(effort, coder, header, n_specials, word);
-    AdaptivelyDecoded decoded{{std::move(word.symbols), {}}, std::move(word.specials)};
+    AdaptivelyDecoded decoded;
+    decoded.word.connectivity = with_coder<ans::Decoder<1>, RangeDecoder>(
+        effort, header, n_specials, word, [](auto&, Reverse& reverse) { return reverse.finish(); }, bytes);
+    decoded.word.symbols = std::move(word.symbols);
+    decoded.specials = std::move(word.specials);
     std::reverse(decoded.specials.begin(), decoded.specials.end());
-    decoded.word.connectivity.opposite = reverse.finish();
-    decoded.word.connectivity.fans = number_fans(decoded.word.connectivity.opposite);
     return decoded;
 }
 

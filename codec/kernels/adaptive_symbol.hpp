@@ -35,6 +35,16 @@ public:
         }
     }
 
+    // The first symbols have these shares of 2^16, which are all of it.
+    template <size_t n_used>
+    explicit AdaptiveSymbol(const std::array<uint32_t, n_used>& shares) {
+        uint64_t sum = 0;
+        for (size_t i = 0; i <= n; ++i) {
+            starts_[i] = static_cast<uint16_t>(least_frequency * i + ((total - least_frequency * n) * sum >> 16));
+            if (i < n_used) sum += shares[i];
+        }
+    }
+
     Share share(uint32_t symbol) const {
         return {starts_[symbol], static_cast<uint16_t>(starts_[symbol + 1] - starts_[symbol])};
     }

@@ -76,8 +76,7 @@ DecodedConnectivity decode_connectivity(std::span<const uint8_t> bytes, const Wo
         decoded.symbols[position] = symbol;
     }
     if (!reversed.all_taken()) throw Corrupt("a special S lies outside the word");
-    decoded.connectivity.opposite = reverse.finish();
-    decoded.connectivity.fans = number_fans(decoded.connectivity.opposite);
+    decoded.connectivity = reverse.finish();
     return decoded;
 }
 

@@ -10,12 +10,6 @@
 
 namespace ebz {
 
-// Corners in output order, with the vertices of the pieces numbered by first corner.
-struct Connectivity {
-    std::vector<Index> opposite;
-    Fans fans;
-};
-
 struct EncodedConnectivity {
     Word word;
     Connectivity connectivity;

@@ -23,6 +23,12 @@ struct Fans {
     Index n_vertices = 0;
 };
 
+// Corners in output order, with the vertices of the pieces numbered by first corner.
+struct Connectivity {
+    std::vector<Index> opposite;
+    Fans fans;
+};
+
 // One vertex for each fan of corners that are joined through edges, numbered by first corner.
 // opposite must be an involution without fixed points.
 Fans number_fans(std::span<const Index> opposite);

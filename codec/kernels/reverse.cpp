@@ -1,7 +1,5 @@
 #include "reverse.hpp"
 
-#include "errors.hpp"
-
 namespace ebz {
 
 Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single)
@@ -9,39 +7,59 @@ Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single)
       n_single_(n_single),
       n_triangles_(n_symbols + n_closed),
       triangle_(n_triangles_),
-      opposite_(static_cast<size_t>(n_triangles_) * 3, none),
-      loops_(opposite_.size()) {}
+      opposite_(static_cast<size_t>(n_triangles_) * 3),
+      vertex_(opposite_.size()),
+      edges_(std::make_unique_for_overwrite<LoopEdge[]>(opposite_.size())),
+      same_as_(std::make_unique_for_overwrite<Index[]>(opposite_.size())) {}
 
-void Reverse::split(Index met) {
-    const Index g = top();
-    if (met == none) {
-        if (stack_.size() < 2) throw Corrupt("the word has an S that lacks its left loop");
-        stack_.pop_back();
-        met = stack_.back().gate;
-    }
-    splice(g, met);
+Index Reverse::root(Index vertex) {
+    while (same_as_[vertex] != vertex) vertex = same_as_[vertex] = same_as_[same_as_[vertex]];
+    return vertex;
 }
 
-// Joins two loops, or splits one in two, depending on where the two half-edges are.
-void Reverse::splice(Index g, Index met) {
-    const Index gate = 3 * triangle_;
-    // A loop keeps two edges at least, and none of its links is to an edge that was matched.
-    if (met == g || met == next_of(g) || met == previous_of(g) || next_of(met) == met) {
+// Later ones refer to earlier ones.
+void Reverse::unite(Index a, Index b) {
+    a = root(a);
+    b = root(b);
+    same_as_[std::max(a, b)] = std::min(a, b);
+}
+
+Index Reverse::split(int64_t meets) {
+    const Index n = top();
+    if (meets != none) return splice(n, edge_met(meets));
+    if (stack_.size() < 2) throw Corrupt("the word has an S that lacks its left loop");
+    stack_.pop_back();
+    return splice(n, stack_.back().gate);
+}
+
+// Joins two loops, or splits one in two, depending on where the two edges are.
+Index Reverse::splice(Index n, Index m) {
+    LoopEdge& gate = edges_[n];
+    LoopEdge& met = edges_[m];  // becomes the gate
+    // A loop keeps two edges at least.
+    if (m == n || m == gate.next || m == gate.previous || met.next == m) {
         throw Corrupt("the word folds an edge onto its neighbour");
     }
-    const Index before = previous_of(met), after = next_of(met);
-    start(gate, loops_[met], 1);
-    add_edge(next_of(g));
-    start(after, loops_[after], loops_[g].degree);
-    add_excess(after, loops_[g].excess - new_vertex.excess);
-    link(previous_of(g), after);
-    link(gate, next_of(g));
-    link(before, gate);
-    match(gate + 1, g);
-    match(gate + 2, met);
+    const Index h = 3 * triangle_, first = gate.next, last = gate.previous, beyond = met.next;
+    set_corners(met.vertex, edges_[first].vertex, gate.vertex);
+    match(h + 1, gate);
+    match(h + 2, met);
+    add_edge(met);
+    add_edge(edges_[first]);
+    add_edge(edges_[beyond], gate.degree);
+    add_excess(edges_[beyond], gate.excess - 8);
+    unite(edges_[beyond].vertex, gate.vertex);
+    met.half_edge = h;
+    met.next = first;
+    edges_[first].previous = m;
+    edges_[last].next = beyond;
+    edges_[beyond].previous = last;
+    lie_on_loop(h, m);
+    release(n);
+    return m;
 }
 
-Index Reverse::half_edge_met(int64_t meets) const {
+Index Reverse::edge_met(int64_t meets) const {
     // Everything built since the loop below was last touched belongs to the component of the top loop.
     if (stack_.empty()) throw Corrupt("the word needs a loop where there is none");
     const int64_t end = stack_.size() > 1 ? stack_[stack_.size() - 2].front : n_triangles_ - n_closed_;
@@ -49,24 +67,25 @@ Index Reverse::half_edge_met(int64_t meets) const {
         throw Corrupt("a special S meets a triangle out of range");
     }
     const int64_t triangle = meets / 2 + n_closed_;
-    const Index met = static_cast<Index>(3 * triangle + 1 + meets % 2);
-    if (opposite_[met] != none) throw Corrupt("a special S meets an edge that is taken");
-    return met;
+    const Index across = opposite_[static_cast<size_t>(3 * triangle + 1 + meets % 2)];
+    if (across >= 0) throw Corrupt("a special S meets an edge that is taken");
+    return ~across;
 }
 
 int64_t Reverse::met_along_loop(int64_t n_steps, bool to_left) const {
-    Index h = top();
-    for (; n_steps > 0; --n_steps) h = to_left ? previous_of(h) : next_of(h);
+    Index e = top();
+    for (; n_steps > 0; --n_steps) e = to_left ? edges_[e].previous : edges_[e].next;
+    const Index h = edges_[e].half_edge;
     if (h % 3 == 0) throw Corrupt("a special S meets a gate");
     return 2 * (static_cast<int64_t>(h / 3) - n_closed_) + (h % 3 == 2);
 }
 
-std::vector<Index> Reverse::finish() {
+Connectivity Reverse::finish() {
     if (stack_.size() < static_cast<size_t>(n_closed_) + n_single_) {
         throw Corrupt("the word leaves fewer loops than there are components");
     }
     move_closed_components();
-    return std::move(opposite_);
+    return numbered();
 }
 
 // Word and closed components are in one array, where a closed component's own first triangle must come
@@ -75,34 +94,57 @@ void Reverse::move_closed_components() {
     const size_t n_open = stack_.size() - n_closed_ - n_single_;
     // From the top of the stack down: the components in the order of the word.
     const auto component = [&](size_t i) -> const Active& { return stack_[stack_.size() - 1 - i]; };
-    const auto shift_symbols = [&](Index from, Index to, Index by) {
-        for (Index t = from; by != 0 && t < to; ++t) {
-            for (int side = 0; side < 3; ++side) {
-                const Index across = opposite_[3 * (t + n_closed_) + side];
-                opposite_[3 * (t + n_closed_ - by) + side] = across == none ? none : across - 3 * by;
-            }
-        }
-    };
     const auto front = [&](size_t i) {
         return i < stack_.size() ? component(i).front : n_triangles_ - n_closed_;
     };
-    if (n_open > 0) shift_symbols(0, front(n_open), n_closed_);
+    if (n_open > 0) shift(0, front(n_open), n_closed_);
     for (Index j = 0; j < n_closed_; ++j) {
         const size_t i = n_open + j;
         const Index by = n_closed_ - 1 - j;
         const Active& active = component(i);
-        const Index a = active.gate, b = previous_of(a), c = next_of(a);
-        if (next_of(c) != b || b == c) throw Corrupt("a closed component ends in a loop of other than three edges");
-        shift_symbols(front(i), front(i + 1), by);
-        add_first_triangle(active.front + j, a - 3 * by);
-        match(3 * (active.front + j) + 1, b - 3 * by);
-        match(3 * (active.front + j) + 2, c - 3 * by);
+        const LoopEdge& a = edges_[active.gate];
+        if (edges_[a.next].next != a.previous || a.previous == a.next) {
+            throw Corrupt("a closed component ends in a loop of other than three edges");
+        }
+        shift(front(i), front(i + 1), by);
+        add_first_triangle(active.front + j, a, by);
     }
 }
 
-void Reverse::add_first_triangle(Index at, Index gate) {
-    opposite_[3 * at] = none;
-    match(3 * at, gate);
+void Reverse::shift(Index from, Index to, Index by) {
+    if (by == 0) return;
+    for (Index h = 3 * (from + n_closed_); h < 3 * (to + n_closed_); ++h) {
+        opposite_[h - 3 * by] = opposite_[h] < 0 ? none : opposite_[h] - 3 * by;
+        vertex_[h - 3 * by] = vertex_[h];
+    }
+}
+
+void Reverse::add_first_triangle(Index at, const LoopEdge& a, Index by) {
+    const LoopEdge &b = edges_[a.previous], &c = edges_[a.next];
+    Index h = 3 * at;
+    for (const LoopEdge* across : {&a, &b, &c}) {
+        opposite_[h] = across->half_edge - 3 * by;
+        opposite_[across->half_edge - 3 * by] = h;
+        ++h;
+    }
+    vertex_[3 * at] = c.vertex;
+    vertex_[3 * at + 1] = a.vertex;
+    vertex_[3 * at + 2] = b.vertex;
+}
+
+Connectivity Reverse::numbered() {
+    for (Index v = 0; v < n_vertices_; ++v) same_as_[v] = same_as_[same_as_[v]];
+    std::vector<Index> number(n_vertices_, none);
+    Index n = 0;
+    for (Index& v : vertex_) {
+        Index& known = number[same_as_[v]];
+        const bool is_new = known == none;
+        known = is_new ? n : known;
+        n += is_new;
+        v = known;
+    }
+    for (Index& h : opposite_) h = std::max(h, none);
+    return {std::move(opposite_), {std::move(vertex_), n}};
 }
 
 }  // namespace ebz

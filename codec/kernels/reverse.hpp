@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,19 +12,22 @@
 
 namespace ebz {
 
-// A half-edge on a loop, and what is known of the vertex where it starts.  A vertex that lies on loops
+// An edge of a loop, and what is known of the vertex where it starts.  A vertex that lies on loops
 // in several places counts as several until they are joined.
 struct LoopEdge {
-    Index next, previous;
+    Index next, previous;  // edges of the loop
+    Index half_edge;
+    Index vertex;    // provisional number
     uint8_t degree;  // edges at the vertex so far, at most max_degree
     uint8_t excess;  // of the vertices closed next to it: 8 + sum of (degree - 6), within 0 to 15
 };
 
 inline constexpr uint8_t max_degree = 15;
-inline constexpr LoopEdge new_vertex{none, none, 2, 8};
 
 // Builds the triangles from the last to the first.  Whatever the symbols are, indices stay in range
 // and opposite stays an involution: what cannot be done throws Corrupt.
+//
+// Edges are recycled, so that those in use lie close together.
 class Reverse {
 public:
     Reverse(Index n_symbols, Index n_closed, Index n_single);
@@ -38,17 +42,15 @@ public:
     // The gate of a loop, the top one if nothing lies above it; it must be there.
     Index gate(size_t below = 0) const { return stack_[stack_.size() - 1 - below].gate; }
 
-    // The half-edge some steps along the top loop from its gate, as in SpecialS.
+    const LoopEdge& edge(Index e) const { return edges_[e]; }
+
+    // What a special S meets that joins the edge some steps along the top loop from its gate.
     int64_t met_along_loop(int64_t n_steps, bool to_left) const;
-    Index half_edge_met(int64_t meets) const;
+    // The edge that a special S meets.
+    Index edge_met(int64_t meets) const;
 
-    // A half-edge on a loop.
-    const LoopEdge& edge(Index h) const { return loops_[h]; }
-
-    // Adds the first triangles of the closed components; the opposite of each half-edge in output order.
-    std::vector<Index> finish();
-
-    Index n_closed() const { return n_closed_; }
+    // Adds the first triangles of the closed components; vertices are numbered by first corner.
+    Connectivity finish();
 
 private:
     struct Active {
@@ -56,42 +58,56 @@ private:
         Index front;  // the position of the latest symbol: in the end, of the component's first
     };
 
-    void end();
-    void right();
-    void left();
-    void close();
-    void split(Index met);
-    void splice(Index g, Index met);
+    Index end();
+    Index right();
+    Index left();
+    Index close();
+    Index split(int64_t meets);
+    Index splice(Index n, Index met);
     Index top() const;
-    void match(Index h, Index g);
-    void link(Index h, Index g);
-    Index next_of(Index h) const { return loops_[h].next; }
-    Index previous_of(Index h) const { return loops_[h].previous; }
-    void start(Index h, LoopEdge vertex, uint8_t n_new_edges);
-    void add_edge(Index h) { loops_[h].degree = std::min<uint8_t>(loops_[h].degree + 1, max_degree); }
-    void add_excess(Index h, int excess);
+    Index take();
+    void release(Index e);
+    Index new_vertex();
+    Index root(Index vertex);
+    void unite(Index a, Index b);
+    void match(Index h, const LoopEdge& edge);
+    void lie_on_loop(Index h, Index e) { opposite_[h] = ~e; }
+    void set_corners(Index a, Index b, Index c);
+    static void add_edge(LoopEdge& edge, uint8_t n = 1) {
+        edge.degree = std::min<uint8_t>(edge.degree + n, max_degree);
+    }
+    static void add_excess(LoopEdge& edge, int excess) {
+        edge.excess = static_cast<uint8_t>(std::clamp(edge.excess + excess, 0, 15));
+    }
     void move_closed_components();
-    void add_first_triangle(Index at, Index gate);
+    void shift(Index from, Index to, Index by);
+    void add_first_triangle(Index at, const LoopEdge& a, Index by);
+    Connectivity numbered();
 
     Index n_closed_, n_single_;
     Index n_triangles_;
     Index triangle_;  // the one being added; triangles are built n_closed_ places too far back or less
-    std::vector<Index> opposite_;
-    std::vector<LoopEdge> loops_;  // for half-edges without an opposite
+    std::vector<Index> opposite_;  // ~e for the half-edge of an edge of a loop
+    std::vector<Index> vertex_;    // of each corner, provisional
+    std::unique_ptr<LoopEdge[]> edges_;   // three per triangle are enough
+    std::unique_ptr<Index[]> same_as_;    // of each provisional vertex: itself, or an earlier one
+    Index n_edges_ = 0, n_vertices_ = 0;
+    Index free_ = none;  // edges to be used again, linked by next
     std::vector<Active> stack_;
 };
 
 // Once per triangle: inline.
 inline void Reverse::apply(Symbol symbol, int64_t meets) {
     --triangle_;
+    Index gate;
     switch (symbol) {
-        case C: close(); break;
-        case L: left(); break;
-        case R: right(); break;
-        case S: split(meets == none ? none : half_edge_met(meets)); break;
-        default: end();
+        case C: gate = close(); break;
+        case L: gate = left(); break;
+        case R: gate = right(); break;
+        case S: gate = split(meets); break;
+        default: gate = end();
     }
-    stack_.back() = {3 * triangle_, triangle_ - n_closed_};
+    stack_.back() = {gate, triangle_ - n_closed_};
 }
 
 inline Index Reverse::top() const {
@@ -99,70 +115,103 @@ inline Index Reverse::top() const {
     return stack_.back().gate;
 }
 
-inline void Reverse::match(Index h, Index g) {
-    opposite_[h] = g;
-    opposite_[g] = h;
+inline Index Reverse::take() {
+    if (free_ == none) return n_edges_++;
+    const Index e = free_;
+    free_ = edges_[e].next;
+    return e;
 }
 
-inline void Reverse::link(Index h, Index g) {
-    loops_[h].next = g;
-    loops_[g].previous = h;
+inline void Reverse::release(Index e) {
+    edges_[e].next = free_;
+    free_ = e;
 }
 
-// h starts at a vertex that is known from another half-edge, and that gets new edges.
-inline void Reverse::start(Index h, LoopEdge vertex, uint8_t n_new_edges) {
-    loops_[h].degree = std::min<uint8_t>(vertex.degree + n_new_edges, max_degree);
-    loops_[h].excess = vertex.excess;
+inline Index Reverse::new_vertex() {
+    same_as_[n_vertices_] = n_vertices_;
+    return n_vertices_++;
 }
 
-inline void Reverse::add_excess(Index h, int excess) {
-    loops_[h].excess = static_cast<uint8_t>(std::clamp(loops_[h].excess + excess, 0, 15));
+inline void Reverse::match(Index h, const LoopEdge& edge) {
+    opposite_[h] = edge.half_edge;
+    opposite_[edge.half_edge] = h;
 }
 
-inline void Reverse::end() {
-    const Index gate = 3 * triangle_;
-    for (Index h = gate; h < gate + 3; ++h) {
-        link(h, next(h));
-        start(h, new_vertex, 0);
-    }
+inline void Reverse::set_corners(Index a, Index b, Index c) {
+    vertex_[3 * triangle_] = a;
+    vertex_[3 * triangle_ + 1] = b;
+    vertex_[3 * triangle_ + 2] = c;
+}
+
+inline Index Reverse::end() {
+    const Index g = take(), r = take(), l = take(), h = 3 * triangle_;
+    const Index a = new_vertex(), b = new_vertex(), c = new_vertex();
+    edges_[g] = {r, l, h, a, 2, 8};
+    edges_[r] = {l, g, h + 1, b, 2, 8};
+    edges_[l] = {g, r, h + 2, c, 2, 8};
+    lie_on_loop(h, g);
+    lie_on_loop(h + 1, r);
+    lie_on_loop(h + 2, l);
+    set_corners(a, b, c);
     stack_.push_back({});
+    return g;
 }
 
-inline void Reverse::right() {
-    const Index g = top(), gate = 3 * triangle_;
-    start(gate, loops_[g], 1);
-    start(gate + 1, new_vertex, 0);
-    add_edge(next_of(g));
-    link(previous_of(g), gate);
-    link(gate, gate + 1);
-    link(gate + 1, next_of(g));
-    match(gate + 2, g);
+inline Index Reverse::right() {
+    const Index n = top(), r = take(), h = 3 * triangle_;
+    LoopEdge& gate = edges_[n];
+    LoopEdge& after = edges_[gate.next];
+    const Index tip = new_vertex();
+    set_corners(gate.vertex, tip, after.vertex);
+    match(h + 2, gate);
+    edges_[r] = {gate.next, n, h + 1, tip, 2, 8};
+    gate.half_edge = h;
+    gate.next = after.previous = r;
+    add_edge(gate);
+    add_edge(after);
+    lie_on_loop(h, n);
+    lie_on_loop(h + 1, r);
+    return n;
 }
 
-inline void Reverse::left() {
-    const Index g = top(), gate = 3 * triangle_;
-    start(gate + 2, loops_[g], 1);
-    start(gate, new_vertex, 0);
-    add_edge(next_of(g));
-    link(previous_of(g), gate + 2);
-    link(gate + 2, gate);
-    link(gate, next_of(g));
-    match(gate + 1, g);
+inline Index Reverse::left() {
+    const Index n = top(), g = take(), h = 3 * triangle_;
+    LoopEdge& gate = edges_[n];  // becomes the left edge
+    LoopEdge& after = edges_[gate.next];
+    const Index tip = new_vertex();
+    set_corners(tip, after.vertex, gate.vertex);
+    match(h + 1, gate);
+    edges_[g] = {gate.next, n, h, tip, 2, 8};
+    gate.half_edge = h + 2;
+    gate.next = after.previous = g;
+    add_edge(gate);
+    add_edge(after);
+    lie_on_loop(h + 2, n);
+    lie_on_loop(h, g);
+    return g;
 }
 
-inline void Reverse::close() {
-    const Index g = top(), gate = 3 * triangle_;
-    const Index met = previous_of(g), before = previous_of(met);
-    if (before == g || previous_of(before) == g) throw Corrupt("the word closes a loop of three edges");
-    const int excess = loops_[g].degree - 6;
-    start(gate, loops_[met], 1);
-    add_edge(next_of(g));
-    add_excess(gate, excess);
-    add_excess(next_of(g), excess);
-    link(before, gate);
-    link(gate, next_of(g));
-    match(gate + 1, g);
-    match(gate + 2, met);
+inline Index Reverse::close() {
+    const Index n = top(), h = 3 * triangle_;
+    const LoopEdge& gate = edges_[n];
+    const Index m = gate.previous;
+    LoopEdge& met = edges_[m];  // becomes the gate
+    LoopEdge& after = edges_[gate.next];
+    if (met.previous == n || met.previous == gate.next) throw Corrupt("the word closes a loop of three edges");
+    set_corners(met.vertex, after.vertex, gate.vertex);
+    match(h + 1, gate);
+    match(h + 2, met);
+    const int excess = gate.degree - 6;
+    add_edge(met);
+    add_edge(after);
+    add_excess(met, excess);
+    add_excess(after, excess);
+    met.half_edge = h;
+    met.next = gate.next;
+    after.previous = m;
+    lie_on_loop(h, m);
+    release(n);
+    return m;
 }
 
 }  // namespace ebz

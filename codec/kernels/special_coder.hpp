@@ -52,7 +52,7 @@ public:
     int64_t code_meets(Coder& coder, const Reverse& reverse, Index position, int64_t meets) {
         --n_left_;
         Path path;
-        if constexpr (Coder::encoding) path = find(reverse, reverse.half_edge_met(meets));
+        if constexpr (Coder::encoding) path = find(reverse, reverse.edge_met(meets));
         if (!on_loop_.code(coder, path.n_steps > 0)) return code_far(coder, position, meets);
         path.to_left = to_left_.code(coder, path.to_left);
         const uint64_t more_steps = static_cast<uint64_t>(path.n_steps - least_steps);

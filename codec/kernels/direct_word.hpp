@@ -1,0 +1,134 @@
+// The reverse word, symbol by symbol, for speed: one adaptive distribution per context, no mixing.
+//
+// The context is the degree of the gate's left end and the latest two symbols.  Lengths and conflicts of
+// loops are not tracked: a C that they forbid is learnt to be rare.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "adaptive_symbol.hpp"
+#include "ans.hpp"
+#include "connectivity.hpp"
+#include "reverse.hpp"
+#include "special_coder.hpp"
+#include "specials.hpp"
+#include "word_priors.hpp"
+
+namespace ebz {
+
+// The rows of the model before the first symbol.
+class DirectRows {
+public:
+    using Row = AdaptiveSymbol<8>;
+
+    Row& at(uint32_t degree, uint32_t latest_two) { return rows_[degree << 6 | latest_two]; }
+
+    static DirectRows initial() {
+        static const DirectRows rows = from_prior();
+        return rows;
+    }
+
+private:
+    static DirectRows from_prior() {
+        DirectRows rows;
+        for (uint32_t degree = 0; degree <= max_degree; ++degree)
+            for (uint32_t latest = 0; latest < 64; ++latest) rows.at(degree, latest) = Row(shares(degree, latest));
+        return rows;
+    }
+
+    // The product of the decisions C or not, R or not, L or not, S or E.
+    static std::array<uint32_t, n_symbols> shares(uint32_t degree, uint32_t latest) {
+        std::array<uint32_t, n_symbols> shares{};
+        uint32_t left = 1 << 16;
+        constexpr std::array<Symbol, n_decisions> asked{C, R, L, S};
+        for (size_t d = 0; d < n_decisions; ++d) {
+            const auto p = static_cast<uint64_t>(squash(16 * degree_prior[d][degree][latest]));
+            shares[asked[d]] = static_cast<uint32_t>(left * p >> 16);
+            left -= shares[asked[d]];
+        }
+        shares[E] = left;
+        return shares;
+    }
+
+    std::array<Row, (max_degree + 1) * 64> rows_;
+};
+
+// One lane of ANS with the interface of a range coder.
+template <class Ans>
+class SingleLane {
+public:
+    static constexpr bool encoding = Ans::encoding;
+
+    explicit SingleLane(Ans& ans) : ans_(ans) {}
+
+    template <int n>
+    uint32_t symbol(AdaptiveSymbol<n>& model, uint32_t symbol) { return ans_.symbol(0, model, symbol); }
+
+    // p1: of 2^16.
+    bool bit(bool bit, uint32_t p1) { return ans_.bit(0, bit, std::clamp(p1 >> 1, 1u, 32767u)); }
+    uint32_t raw(uint32_t value, int n_bits) { return ans_.raw(0, value, n_bits); }
+
+private:
+    Ans& ans_;
+};
+
+template <class Coder>
+class DirectWord {
+public:
+    // word: all of it when encoding; specials: by falling position when decoding.
+    DirectWord(Coder coder, const WordHeader& header, Index n_specials, std::vector<uint8_t>& symbols,
+               std::vector<SpecialS>& specials)
+        : coder_(coder),
+          header_(header),
+          symbols_(symbols),
+          specials_(specials),
+          reverse_(header.n_symbols, header.n_closed, header.n_single),
+          special_coder_(n_specials, header.n_symbols),
+          known_specials_(specials) {}
+
+    // Runs the reverse construction and codes what that does not determine.
+    Reverse run() {
+        Index position = header_.n_symbols - 1;
+        const Index n_coded = header_.n_symbols - std::max<Index>(header_.n_single, 1);
+        for (; position >= 0 && position >= n_coded; --position) apply(position, E, none);
+        for (; position >= 0; --position) {
+            int64_t meets = Coder::encoding ? known_specials_.take(position) : none;
+            const uint32_t degree = reverse_.edge(reverse_.gate()).degree;
+            const auto symbol = static_cast<Symbol>(coder_.symbol(rows_.at(degree, latest_), symbols_[position]));
+            if (symbol == S && special_coder_.any_left()) meets = special(position, meets);
+            apply(position, symbol, meets);
+        }
+        if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
+        return std::move(reverse_);
+    }
+
+private:
+    void apply(Index position, Symbol symbol, int64_t meets) {
+        if (Coder::encoding && symbols_[position] != symbol) throw Corrupt("no word of Edgebreaker's");
+        symbols_[position] = symbol;
+        reverse_.apply(symbol, meets);
+        latest_ = (latest_ << 3 | (symbol + 1u)) & 63;
+    }
+
+    int64_t special(Index position, int64_t meets) {
+        if (reverse_.n_loops() > 1 && !special_coder_.code_kind(coder_, meets != none)) return none;
+        meets = special_coder_.code_meets(coder_, reverse_, position, meets);
+        if (!Coder::encoding) specials_.push_back({position, meets});
+        return meets;
+    }
+
+    Coder coder_;
+    const WordHeader& header_;
+    std::vector<uint8_t>& symbols_;
+    std::vector<SpecialS>& specials_;
+    Reverse reverse_;
+    SpecialCoder special_coder_;
+    SpecialsReversed known_specials_;
+    DirectRows rows_ = DirectRows::initial();
+    uint32_t latest_ = 0;
+};
+
+}  // namespace ebz
