@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     )
     from ebz.codec.mesh import Mesh
     from ebz.codec.order import Permutation
+    from ebz.codec.scene import Scene
+    from ebz.codec.scene_statistics import SceneStats
     from ebz.codec.statistics import Stats
     from ebz.coding import compress, decompress
     from ebz.files import read, write
@@ -39,6 +41,8 @@ _HOMES = {
     "Element": "ebz.codec.elements",
     "Mesh": "ebz.codec.mesh",
     "Permutation": "ebz.codec.order",
+    "Scene": "ebz.codec.scene",
+    "SceneStats": "ebz.codec.scene_statistics",
     "Stats": "ebz.codec.statistics",
     "Verification": "ebz.codec.compare",
     "compress": "ebz.coding",
@@ -72,6 +76,8 @@ __all__ = [
     "NotEbzError",
     "OptionError",
     "Permutation",
+    "Scene",
+    "SceneStats",
     "Stats",
     "TruncatedError",
     "Verification",

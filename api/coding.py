@@ -7,10 +7,10 @@ from typing import Any, Literal, overload
 
 import numpy as np
 
-from ebz.codec import pipeline
+from ebz.codec import scenes
 from ebz.codec.connectivity import OutputOrder
-from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
+from ebz.codec.fitting import Precision
 from ebz.codec.lattice import MAX_BITS, GridLattice
 from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE, LEVELS
 from ebz.codec.mesh import Mesh
@@ -19,7 +19,9 @@ from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
 from ebz.codec.order import Permutation
 from ebz.codec.pipeline import Progress
-from ebz.formats import container
+from ebz.codec.scene import Scene
+from ebz.codec.scenes import Encoded
+from ebz.formats import ebz_file
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
 BytesLike = bytes | bytearray | memoryview
@@ -28,7 +30,7 @@ Grid = tuple[float | Sequence[float], float]
 
 @overload
 def compress(
-    mesh: Mesh,
+    mesh: Mesh | Scene,
     *,
     bits: int | None = ...,
     max_error: float | None = ...,
@@ -44,7 +46,7 @@ def compress(
 
 @overload
 def compress(
-    mesh: Mesh,
+    mesh: Mesh | Scene,
     *,
     bits: int | None = ...,
     max_error: float | None = ...,
@@ -55,11 +57,11 @@ def compress(
     model: str | os.PathLike[str] | AnyTable | None = ...,
     embed_model: bool = ...,
     progress: Progress | None = ...,
-) -> tuple[bytes, Permutation]: ...
+) -> tuple[bytes, Permutation | list[Permutation]]: ...
 
 
 def compress(
-    mesh: Mesh,
+    mesh: Mesh | Scene,
     *,
     bits: int | None = None,
     max_error: float | None = None,
@@ -70,16 +72,18 @@ def compress(
     model: str | os.PathLike[str] | AnyTable | None = None,
     embed_model: bool = False,
     progress: Progress | None = None,
-) -> bytes | tuple[bytes, Permutation]:
-    """The .ebz bytes of a mesh; without `bits` and `max_error` nothing is lost.
+) -> bytes | tuple[bytes, Permutation | list[Permutation]]:
+    """The .ebz bytes of a mesh or scene; without `bits`, `max_error` and `grid` nothing is lost.
 
-    bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).
+    bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).  Parts of
+    a scene are in one box.
     max_error: in model units; no coordinate moves by more.
     grid: (origin, step), origin a number or three: coordinates move to the nearest origin + step *
     integer, so that meshes which share vertices still do.  At most one of these three.
     keep_order: vertices, faces and the first corner of each face come back as they are; without it
     their order may change.
-    return_permutation: also return where the vertices and faces of the decoded mesh come from.
+    return_permutation: also return where the vertices and faces of the decoded mesh come from; of a
+    scene, a list of that.
     level: 1 (fast) to 9 (small).
     model: name of a built-in table, path of a table file, or a table, which must have a
     certificate (ebz.models.certify): the word is coded with it; None: with the level's adaptive
@@ -93,20 +97,19 @@ def compress(
     lattice = None if grid is None else _grid(grid)
     _check_options(bits, max_error, lattice, level)
     table = None if model is None and not embed_model else load_model(model)
-    encoded, order = pipeline.encode(
+    encoded, orders = scenes.encode(
         mesh,
         table,
         level=level,
-        bits=bits,
-        max_error=max_error,
-        grid=lattice,
+        precision=Precision(bits, max_error, lattice),
         keep_order=keep_order,
         progress=progress,
     )
-    data = container.write(encoded, embed_model=embed_model or _is_file(model))
+    data = ebz_file.write(encoded, embed_model=embed_model or _is_file(model))
     if not return_permutation:
         return data
-    return data, _identity(encoded) if keep_order else _permutation(order)
+    permutations = [_permutation(order, keep_order) for order in orders]
+    return data, permutations if isinstance(mesh, Scene) else permutations[0]
 
 
 def decompress(
@@ -114,18 +117,18 @@ def decompress(
     *,
     memory_limit: int = DEFAULT_MEMORY_LIMIT,
     progress: Progress | None = None,
-) -> Mesh:
-    """The mesh of an .ebz file's bytes.
+) -> Mesh | Scene:
+    """The mesh or the scene of an .ebz file's bytes, as it was compressed.
 
     memory_limit: in bytes; what decoding would take is checked before anything is allocated.
     Raises NotEbzError, VersionError, TruncatedError, CorruptError and MemoryLimitError.
     """
-    return pipeline.decode(parse(data, memory_limit), progress=progress).mesh
+    return scenes.decode(parse(data, memory_limit), progress=progress)
 
 
-def parse(data: BytesLike, memory_limit: int) -> EncodedMesh:
+def parse(data: BytesLike, memory_limit: int) -> Encoded:
     """The structure of an .ebz file, its declared sizes checked."""
-    return container.read(as_bytes(data), memory_limit=memory_limit)
+    return ebz_file.read(as_bytes(data), memory_limit=memory_limit)
 
 
 def as_bytes(data: BytesLike) -> memoryview:
@@ -149,11 +152,9 @@ def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
     return table
 
 
-def _identity(encoded: EncodedMesh) -> Permutation:
-    return Permutation(np.arange(encoded.n_vertices), np.arange(encoded.counts.n_faces))
-
-
-def _permutation(order: OutputOrder) -> Permutation:
+def _permutation(order: OutputOrder, keep_order: bool) -> Permutation:
+    if keep_order:
+        return Permutation(np.arange(len(order.vertices)), np.arange(len(order.faces)))
     return Permutation(order.vertices.astype(np.int64), order.faces.astype(np.int64))
 
 

@@ -6,6 +6,7 @@ from typing import BinaryIO
 
 from ebz.codec.errors import EbzError
 from ebz.codec.mesh import Mesh
+from ebz.codec.scene import Scene
 from ebz.formats import meshes
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
@@ -21,8 +22,8 @@ def read(
     format: str | None = None,
     triangulate: bool = False,
     memory_limit: int = DEFAULT_MEMORY_LIMIT,
-) -> Mesh:
-    """The mesh in a file; its format is recognised by content, then by suffix.
+) -> Mesh | Scene:
+    """The mesh in a file, or its scene; the format is recognised by content, then by suffix.
 
     path_or_file: a path or a binary file object, read to its end.
     format: "ply", "obj", "off", "stl", "gltf", "glb" or "ebz" where it is not to be recognised.
@@ -42,8 +43,8 @@ def read(
         raise
 
 
-def write(path_or_file: PathOrFile, mesh: Mesh, *, format: str | None = None) -> None:
-    """Write a mesh in the format given, else that of the suffix, else that it was read from.
+def write(path_or_file: PathOrFile, mesh: Mesh | Scene, *, format: str | None = None) -> None:
+    """Write a mesh or scene in the format given, else that of the suffix, else the one it had.
 
     What the format cannot carry is a DroppedWarning that names it.  Raises EbzError and OSError.
     """
@@ -59,7 +60,7 @@ def write(path_or_file: PathOrFile, mesh: Mesh, *, format: str | None = None) ->
         path_or_file.write(data)
 
 
-def _encode(mesh: Mesh, format: str) -> bytes:
+def _encode(mesh: Mesh | Scene, format: str) -> bytes:
     if format == EBZ:
         from ebz.coding import compress
 
@@ -67,7 +68,7 @@ def _encode(mesh: Mesh, format: str) -> bytes:
     return meshes.write_mesh(mesh, format)
 
 
-def _format_for(name: str | None, mesh: Mesh) -> str:
+def _format_for(name: str | None, mesh: Mesh | Scene) -> str:
     suffix = Path(name).suffix.lower() if name else ""
     if suffix == EBZ_SUFFIX:
         return EBZ

@@ -2,32 +2,51 @@
 
 import math
 
-from ebz.codec import pipeline, statistics
-from ebz.codec.compare import Verification, compare
+from ebz.codec import pipeline, scene_statistics, scenes, statistics
+from ebz.codec.compare import Verification
+from ebz.codec.compare_scenes import compare_parts, summary
 from ebz.codec.connectivity import WordModel
+from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
 from ebz.codec.levels import guaranteed_by
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
+from ebz.codec.scene import Scene, in_part
+from ebz.codec.scene_statistics import SceneStats
 from ebz.codec.statistics import Stats
 from ebz.coding import BytesLike, as_bytes, compress, parse
-from ebz.formats import container
+from ebz.formats import ebz_file
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
 
-def stats(data: BytesLike | Mesh, *, memory_limit: int = DEFAULT_MEMORY_LIMIT) -> Stats:
+def stats(
+    data: BytesLike | Mesh | Scene, *, memory_limit: int = DEFAULT_MEMORY_LIMIT
+) -> Stats | SceneStats:
     """Counts, sizes and reference values of an .ebz file, or of what `compress` makes of a mesh.
 
-    Raises what decompress raises.
+    Of a scene, those of every part and their sums.  Raises what decompress raises.
     """
-    content = compress(data) if isinstance(data, Mesh) else data
+    content = compress(data) if isinstance(data, Mesh | Scene) else data
     view = as_bytes(content)
     encoded = parse(view, memory_limit)
+    frame, sizes = ebz_file.sizes(view)
+    if isinstance(encoded, EncodedMesh):
+        return _describe(encoded, frame | sizes[0])[0]
+    parts = []
+    for number, part in enumerate(encoded.parts):
+        with in_part(number):
+            parts.append(_describe(part, sizes[number]))
+    scene = Scene([mesh for _, mesh in parts])
+    return scene_statistics.describe(scene, [described for described, _ in parts], frame)
+
+
+def _describe(encoded: EncodedMesh, sizes: dict[str, int]) -> tuple[Stats, Mesh]:
     decoded = pipeline.decode(encoded)
     guarantee = _guarantee(encoded.model)
-    return statistics.describe(
-        encoded, decoded.word, decoded.surface, decoded.mesh, container.sizes(view), guarantee
+    described = statistics.describe(
+        encoded, decoded.word, decoded.surface, decoded.mesh, sizes, guarantee
     )
+    return described, decoded.mesh
 
 
 def _guarantee(model: WordModel) -> float:
@@ -39,7 +58,10 @@ def _guarantee(model: WordModel) -> float:
 
 
 def verify(
-    data: BytesLike, against: Mesh | None = None, *, memory_limit: int = DEFAULT_MEMORY_LIMIT
+    data: BytesLike,
+    against: Mesh | Scene | None = None,
+    *,
+    memory_limit: int = DEFAULT_MEMORY_LIMIT,
 ) -> Verification:
     """Check an .ebz file by decoding all of it, and compare it with the original if that is given.
 
@@ -48,9 +70,11 @@ def verify(
     Raises what decompress raises, and EbzError where vertices cannot be told apart.
     """
     encoded = parse(data, memory_limit)
-    mesh = pipeline.decode(encoded).mesh
+    content = scenes.decode(encoded)
     checked = ["checksums", "every stream", "digest"]
     if against is None:
-        return Verification(True, checked, len(mesh.vertices), len(mesh.faces))
-    keeps_order = encoded.streams.order.vertices is not None
-    return compare(mesh, against, encoded.lattice, checked, keeps_order=keeps_order)
+        return summary(content, checked)
+    parts = [encoded] if isinstance(encoded, EncodedMesh) else encoded.parts
+    keeps_order = any(part.streams.order.vertices is not None for part in parts)
+    lattices = [part.lattice for part in parts]
+    return compare_parts(content, against, lattices, checked, keeps_order=keeps_order)

@@ -12,7 +12,7 @@ from ebz.cli.jobs import Manner, Summary, deliver, for_each
 from ebz.cli.messages import Progress
 
 if TYPE_CHECKING:
-    from ebz import Mesh
+    from ebz import Mesh, Scene
 
 # What no text has: the control characters but for tab, line feed and return.
 BINARY_CONTROLS = bytes(code for code in (*range(32), 127) if code not in b"\t\n\r")
@@ -79,7 +79,7 @@ def decompress(
     return for_each(inputs, work, quiet=quiet)
 
 
-def _decode(packed: bytes, source: Input, manner: Manner, memory_limit: int) -> "Mesh":
+def _decode(packed: bytes, source: Input, manner: Manner, memory_limit: int) -> "Mesh | Scene":
     import ebz
 
     progress = Progress(source.name, quiet=manner.quiet)
@@ -89,7 +89,7 @@ def _decode(packed: bytes, source: Input, manner: Manner, memory_limit: int) -> 
         progress.clear()
 
 
-def _encode(mesh: "Mesh", format_name: str) -> memoryview:
+def _encode(mesh: "Mesh | Scene", format_name: str) -> memoryview:
     import ebz
 
     buffer = BytesIO()
@@ -97,7 +97,7 @@ def _encode(mesh: "Mesh", format_name: str) -> memoryview:
     return buffer.getbuffer()
 
 
-def _format_of(mesh: "Mesh", named: str | None, source_path: str) -> str:
+def _format_of(mesh: "Mesh | Scene", named: str | None, source_path: str) -> str:
     """The format of the suffix that the user gave, of the original, or of the input's name."""
     recorded = mesh.metadata.get("format")
     if recorded not in options.FORMATS:

@@ -9,7 +9,7 @@ from ebz.cli.files import Input
 from ebz.cli.jobs import for_each
 
 if TYPE_CHECKING:
-    from ebz import Stats
+    from ebz import SceneStats, Stats
 
 EPILOG = """\b
 Examples:
@@ -38,7 +38,7 @@ def stats(inputs: tuple[str, ...], as_json: bool, memory_limit: int) -> int:
     return for_each(inputs, work)
 
 
-def _stats(source: Input, memory_limit: int) -> "Stats":
+def _stats(source: Input, memory_limit: int) -> "Stats | SceneStats":
     import ebz
 
     data = source.read(memory_limit)

@@ -15,15 +15,8 @@ from ebz.codec import connectivity, matching, welding
 from ebz.codec import points as free_points
 from ebz.codec.elements import Element
 from ebz.codec.errors import EbzError
-from ebz.codec.lattice import (
-    BoxLattice,
-    GridLattice,
-    Lattice,
-    Points,
-    StepLattice,
-    fit,
-    restore,
-)
+from ebz.codec.fitting import Precision, fit
+from ebz.codec.lattice import BoxLattice, GridLattice, Lattice, Points, StepLattice, restore
 from ebz.codec.mesh import Mesh
 
 Order = npt.NDArray[Any]
@@ -303,11 +296,11 @@ def _points(vertices: npt.NDArray[Any], lattice: Lattice) -> Points:
     """The points of compressing at the same precision."""
     if np.isfinite(vertices).all():
         if isinstance(lattice, GridLattice):
-            return fit(vertices, grid=lattice)
+            return fit(vertices, Precision(grid=lattice))
         if isinstance(lattice, BoxLattice):
-            return fit(vertices, bits=lattice.bits)
+            return Points(lattice, lattice.integers(vertices), np.zeros(0, np.int64))
         if isinstance(lattice, StepLattice):
-            return fit(vertices, max_error=lattice.max_error)
+            return fit(vertices, Precision(max_error=lattice.max_error))
     return fit(vertices)
 
 

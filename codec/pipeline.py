@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import connectivity, lattice, metadata, positions, welding
+from ebz.codec import connectivity, fitting, lattice, metadata, positions, welding
 from ebz.codec import order as source_order
 from ebz.codec import points as free_points
 from ebz.codec.arrays import Attributes, face_dtype
@@ -18,8 +18,9 @@ from ebz.codec.digest import digest
 from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, MeshError, corrupt_at
+from ebz.codec.fitting import LOSSLESS, Precision
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
-from ebz.codec.lattice import GridLattice, Points
+from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
 from ebz.codec.mesh import Mesh
 from ebz.codec.order import SourceOrder
@@ -58,27 +59,24 @@ def encode(
     model: WordModel | None = None,
     *,
     level: int = DEFAULT_LEVEL,
-    bits: int | None = None,
-    max_error: float | None = None,
-    grid: GridLattice | None = None,
+    precision: Precision = LOSSLESS,
+    points: Points | None = None,
     keep_order: bool = False,
     progress: Progress | None = None,
 ) -> tuple[EncodedMesh, OutputOrder]:
     """Every part of a mesh as streams, and where the items of the output come from.
 
-    Nothing is lost unless bits, max_error or grid say so, and the order without keep_order.
+    Nothing is lost but what precision allows, and the order without keep_order.
     model: of the word; None: the best of those of the level.
+    points: the coordinates where they are fitted already, together with others.
     """
     report = progress or _silent
     mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
     if not mesh.is_triangles:
         raise MeshError("only triangles can be coded")
-    if bits is not None or max_error or grid is not None:
-        lattice.require_finite(mesh.vertices)
-    if grid is not None:
-        lattice.require_on_grid(mesh.vertices, grid)
+    fitting.check(mesh.vertices, precision)
     report("lattice", 0, N_STAGES)
-    points = lattice.fit(mesh.vertices, bits, max_error, grid)
+    points = points or fitting.fit(mesh.vertices, precision)
     exact = mesh.vertices.reshape(-1)[points.exceptions]
     stored = lattice.restore(points, mesh.vertices.dtype, exact)
     report("connectivity", 1, N_STAGES)

@@ -37,23 +37,27 @@ def start() -> bytes:
     return layout.MAGIC + bytes([layout.VERSION])
 
 
-def read(data: memoryview) -> Iterator[Chunk]:
-    """The chunks up to the end chunk, checked one by one.
+def sequence(data: memoryview, offset: int) -> Iterator[Chunk]:
+    """The chunks from there on up to an end chunk, checked one by one.
 
-    Raises NotEbzError, VersionError, TruncatedError or CorruptError.
+    Raises TruncatedError or CorruptError.
     """
-    offset = _check_start(data)
     while True:
         chunk = _read_one(data, offset)
         offset += chunk.size
         yield chunk
         if chunk.type == layout.END:
             break
+
+
+def check_end(data: memoryview, offset: int) -> None:
+    """Raises CorruptError where the file goes on after its last chunk."""
     if offset != len(data):
         raise CorruptError(f"{len(data) - offset} bytes after the end chunk, at offset {offset}")
 
 
-def _check_start(data: memoryview) -> int:
+def begin(data: memoryview) -> int:
+    """Where the first chunk is; raises NotEbzError, VersionError or TruncatedError."""
     if len(data) and layout.MAGIC.startswith(bytes(data[: len(layout.MAGIC) + 1])):
         raise TruncatedError(f"the file ends at byte {len(data)}, within its first bytes")
     if data[: len(layout.MAGIC)] != layout.MAGIC:

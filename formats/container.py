@@ -1,4 +1,4 @@
-""".ebz bytes <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
+"""The chunks of one mesh <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
 
 from collections.abc import Iterator
 from types import SimpleNamespace
@@ -25,7 +25,6 @@ from ebz.codec.order import OrderStreams
 from ebz.codec.positions import FLOAT_METHODS, Method
 from ebz.formats import chunks, layout, records, tables
 from ebz.formats.chunks import Chunk
-from ebz.formats.limits import check_declared_sizes
 
 # The order of chunks in a file.
 ORDER = list(layout.NAMES)
@@ -35,15 +34,14 @@ REPEATED = {*ATTRIBUTES, layout.ELEMENT}
 MAX_COUNT = 2**63
 
 
-def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
-    """The file: chunks that hold nothing are left out, but for the header and the end."""
+def write(encoded: EncodedMesh, *, embed_model: bool = False) -> list[bytes]:
+    """The chunks: those that hold nothing are left out, but for the header and the end."""
     model = tables.number_of(encoded.model)
     table = encoded.model if isinstance(encoded.model, AnyTable) else None
     inline = table is not None and (embed_model or model == layout.INLINE_MODEL)
     streams = encoded.streams
     parts = [
-        chunks.start(),
-        chunks.write(layout.HEADER, _header(encoded, layout.INLINE_MODEL if inline else model)),
+        chunks.write(layout.HEADER, _header(encoded, layout.INLINE_MODEL if inline else model))
     ]
     optional = [
         (layout.MODEL, tables.write(table) if table and inline else b""),
@@ -66,36 +64,25 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> bytes:
     if encoded.metadata:
         text = layout.build(layout.Text, vars(encoded.metadata))
         parts.append(chunks.write(layout.METADATA, text))
-    parts.append(chunks.write(layout.END, encoded.digest))
-    return b"".join(parts)
+    return [*parts, chunks.write(layout.END, encoded.digest)]
 
 
-def sizes(data: memoryview) -> dict[str, int]:
-    """Bytes of a file by what they hold, framing included, in the order of the file."""
-    by_name = {"start": len(chunks.start())}
-    for chunk in chunks.read(data):
-        name = layout.NAMES.get(chunk.type, "unknown")
-        by_name[name] = by_name.get(name, 0) + chunk.size
-    return by_name
+def read(data: memoryview, offset: int) -> tuple[EncodedMesh, int]:
+    """The encoded mesh from there on, and where its chunks end.
 
-
-def read(data: memoryview, *, memory_limit: int) -> EncodedMesh:
-    """The encoded mesh; counts are checked against the bytes there are and the memory limit.
-
-    Raises NotEbzError, VersionError, TruncatedError, CorruptError or MemoryLimitError.
+    Raises VersionError, TruncatedError or CorruptError.
     """
     found: dict[bytes, Chunk] = {}
     arrays: dict[bytes, list[EncodedArray]] = {kind: [] for kind in ATTRIBUTES}
     elements: list[EncodedElement] = []
-    for chunk in _in_order(data):
+    for chunk in _in_order(data, offset):
         found[chunk.type] = chunk
         if chunk.type in ATTRIBUTES:
             _append(arrays[chunk.type], records.parse_attribute(chunk), chunk)
         elif chunk.type == layout.ELEMENT:
             _append(elements, records.parse_element(chunk), chunk)
-    encoded = _parse(found, arrays, elements)
-    check_declared_sizes(encoded, len(data), memory_limit)
-    return encoded
+    end = found[layout.END]
+    return _parse(found, arrays, elements), end.offset + end.size
 
 
 def _append(parts: list[Any], part: EncodedArray | EncodedElement, chunk: Chunk) -> None:
@@ -104,10 +91,10 @@ def _append(parts: list[Any], part: EncodedArray | EncodedElement, chunk: Chunk)
     parts.append(part)
 
 
-def _in_order(data: memoryview) -> Iterator[Chunk]:
+def _in_order(data: memoryview, offset: int) -> Iterator[Chunk]:
     """The chunks that this reader knows."""
     last: Chunk | None = None
-    for chunk in chunks.read(data):
+    for chunk in chunks.sequence(data, offset):
         if chunk.type in ORDER:
             if last:
                 _check_order(last, chunk)

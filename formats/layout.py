@@ -42,6 +42,8 @@ SPLITS, POSITIONS, POINTS, EXCEPTIONS = b"I", b"P", b"Q", b"X"
 VERTEX_ORDER, FACE_ORDER, ROTATIONS = b"N", b"O", b"R"
 VERTEX_ATTRIBUTE, FACE_ATTRIBUTE, CORNER_ATTRIBUTE, ELEMENT = b"V", b"F", b"C", b"E"
 METADATA, END = b"D", b"Z"
+# Before the parts of a scene, each of which is what a file of one mesh holds.
+SCENE = b"L"
 
 NAMES = {
     HEADER: "header",
@@ -198,6 +200,7 @@ Element = Struct(
 
 
 Text = Struct("n_bytes" / VarInt, "data" / GreedyBytes)
+Scene = Struct("n_parts" / VarInt, "text" / Text)
 
 
 def build(declaration: Any, values: Any) -> bytes:

@@ -2,12 +2,14 @@
 
 import math
 
-from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh
+from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, EncodedText
 from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
 from ebz.codec.order import Method as OrderMethod
+from ebz.codec.scene import in_part
+from ebz.codec.scenes import EncodedScene
 
 # The cheapest adaptive bit: AdaptiveBit in codec/kernels/adaptive_bit.hpp.
 CHEAPEST_BIT = math.log2(65536 / (65536 - 32))
@@ -22,13 +24,39 @@ DEFAULT_MEMORY_LIMIT = 4 << 30
 BYTES_PER_FACE = 160
 BYTES_PER_VERTEX = 160
 BYTES_PER_INTEGER = 128
+BYTES_PER_PART = 16 << 10
 BYTES_PER_CHARACTER = 32
 BYTES_PER_CORNER = 48  # the wedges of an attribute of corners
 BYTES_PER_ROW = 32
 
 
-def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) -> None:
-    """Raise CorruptError where a count exceeds its stream, MemoryLimitError past the limit."""
+def check_memory(n_bytes: int, memory_limit: int) -> None:
+    """Raise MemoryLimitError where decoding takes more than the limit."""
+    if n_bytes > memory_limit:
+        raise MemoryLimitError(
+            f"decoding takes up to {n_bytes:,} bytes of memory, past the limit of {memory_limit:,}"
+        )
+
+
+def check_text(text: EncodedText | None) -> int:
+    """The memory that a text takes; raises CorruptError where it exceeds its stream."""
+    if text is None:
+        return 0
+    _check("characters", text.n_bytes, 8 * CHEAPEST_LEARNT, text.data)
+    return BYTES_PER_CHARACTER * text.n_bytes
+
+
+def scene_size(scene: EncodedScene) -> int:
+    """The memory that decoding takes; raises CorruptError where a count exceeds its stream."""
+    size = check_text(scene.metadata)
+    for number, part in enumerate(scene.parts):
+        with in_part(number):
+            size += BYTES_PER_PART + declared_size(part)
+    return size
+
+
+def declared_size(encoded: EncodedMesh) -> int:
+    """The memory that decoding takes; raises CorruptError where a count exceeds its stream."""
     counts, streams = encoded.counts, encoded.streams
     with corrupt_at(encoded.place("header")):
         _check_symbols(encoded)
@@ -41,10 +69,8 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
     _check_order("face order", counts.n_faces - 1, streams.order.faces, encoded)
     _check_order("rotations", counts.n_faces, streams.order.rotations, encoded)
-    n_text = encoded.metadata.n_bytes if encoded.metadata else 0
-    if encoded.metadata:
-        with corrupt_at(encoded.place("metadata")):
-            _check("characters", n_text, 8 * CHEAPEST_LEARNT, encoded.metadata.data)
+    with corrupt_at(encoded.place("metadata")):
+        text_size = check_text(encoded.metadata)
     n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
     size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
@@ -56,12 +82,7 @@ def check_declared_sizes(encoded: EncodedMesh, n_bytes: int, memory_limit: int) 
         n_corners * (3 * array.entry_size + BYTES_PER_CORNER) for array in encoded.corner_attributes
     )
     size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices
-    size += BYTES_PER_CHARACTER * n_text
-    size += BYTES_PER_INTEGER * n_integers + 2 * n_bytes
-    if size > memory_limit:
-        raise MemoryLimitError(
-            f"decoding takes up to {size:,} bytes of memory, past the limit of {memory_limit:,}"
-        )
+    return size + text_size + BYTES_PER_INTEGER * n_integers
 
 
 def _check_order(part: str, count: int, stream: bytes | None, encoded: EncodedMesh) -> None:

@@ -8,8 +8,10 @@ import numpy as np
 
 from ebz.codec.errors import OptionError
 from ebz.codec.mesh import Mesh
+from ebz.codec.scene import Scene
 from ebz.formats.detect import FORMATS, format_of, format_of_suffix, suffix_of
 from ebz.formats.dropped import warn_dropped
+from ebz.formats.joined import join
 from ebz.formats.polygons import fanned
 
 __all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"]
@@ -24,6 +26,7 @@ MODULES = {
     "gltf": ("gltf", "gltf"),
     "glb": ("gltf", "gltf"),
 }
+SCENES = ("gltf", "glb")
 TRIANGLES_ONLY = ("stl", "gltf", "glb")
 
 
@@ -33,8 +36,8 @@ def read_mesh(
     format: str | None = None,
     name: str | None = None,
     triangulate: bool = False,
-) -> Mesh:
-    """The mesh of a file's bytes; metadata["format"] says which format it had.
+) -> Mesh | Scene:
+    """The mesh or scene of a file's bytes; metadata["format"] says which format it had.
 
     format: one of FORMATS; None: by content, else by the suffix of `name`.
     triangulate: cut polygons into fans of triangles.
@@ -42,15 +45,25 @@ def read_mesh(
     """
     content = data if isinstance(data, bytes) else bytes(data)
     chosen = format_of(content, name) if format is None else format
-    mesh = _reader(chosen)(content)
-    return fanned(mesh) if triangulate else mesh
+    found = _reader(chosen)(content)
+    if not triangulate:
+        return found
+    if isinstance(found, Scene):
+        return Scene([fanned(part) for part in found.parts], found.metadata)
+    return fanned(found)
 
 
-def write_mesh(mesh: Mesh, format: str) -> bytes:
-    """The mesh as a file of `format`, in the flavour that its metadata remembers.
+def write_mesh(mesh: Mesh | Scene, format: str) -> bytes:
+    """The mesh or scene as a file of `format`, in the flavour that its metadata remembers.
+
+    Where the format holds one mesh, the parts of a scene are joined.
 
     Warns (DroppedWarning) of what the format cannot carry. Raises MeshError, OptionError.
     """
+    if isinstance(mesh, Scene):
+        if format in SCENES:
+            return _writer(format)(mesh)
+        mesh = join(mesh, format)
     if format in TRIANGLES_ONLY and not mesh.is_triangles:
         n_polygons = int(np.count_nonzero(np.diff(mesh.offsets) != 3))
         warn_dropped(f"{format.upper()} holds triangles only: {n_polygons} polygons are cut up")
@@ -58,13 +71,13 @@ def write_mesh(mesh: Mesh, format: str) -> bytes:
     return _writer(format)(mesh)
 
 
-def _reader(format: str) -> Callable[[bytes], Mesh]:
-    reader: Callable[[bytes], Mesh] = _function(0, "read", format)
+def _reader(format: str) -> Callable[[bytes], Mesh | Scene]:
+    reader: Callable[[bytes], Mesh | Scene] = _function(0, "read", format)
     return reader
 
 
-def _writer(format: str) -> Callable[[Mesh], bytes]:
-    writer: Callable[[Mesh], bytes] = _function(1, "write", format)
+def _writer(format: str) -> Callable[[Any], bytes]:
+    writer: Callable[[Any], bytes] = _function(1, "write", format)
     return writer
 
 

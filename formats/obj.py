@@ -25,10 +25,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.arrays import Attributes
+from ebz.codec.arrays import Attributes, face_dtype
 from ebz.codec.elements import Element, rows
 from ebz.codec.errors import MeshError
-from ebz.codec.mesh import Mesh, face_dtype
+from ebz.codec.mesh import Mesh
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.obj_corners import Corners, read_corners
 from ebz.formats.obj_lines import Lines, Rows, read_lines

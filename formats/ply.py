@@ -22,9 +22,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec.arrays import face_dtype
 from ebz.codec.elements import Element as Rows
 from ebz.codec.errors import MeshError
-from ebz.codec.mesh import Mesh, face_dtype
+from ebz.codec.mesh import Mesh
 from ebz.formats import ply_ascii, ply_binary
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import rendered

@@ -8,7 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import lattice
+from ebz.codec import fitting, lattice
+from ebz.codec.fitting import Precision
 from ebz.codec.lattice import MAX_MULTIPLE, GridLattice
 from ebz.codec.sample import grid as height_field
 from tests.codec.test_precision import compress, largest_error, scaled_meshes
@@ -60,7 +61,7 @@ def test_a_coordinate_decodes_alike_in_any_company(rng, dtype, digits):
     vertices = (rng.normal(size=(40, 3)) * 10.0 ** rng.integers(-3, 4, (40, 1))).astype(dtype)
 
     def decoded(part: np.ndarray) -> np.ndarray:
-        points = lattice.fit(part, grid=grid)
+        points = fitting.fit(part, Precision(grid=grid))
         return lattice.restore(points, part.dtype, part.reshape(-1)[points.exceptions])
 
     alone = np.concatenate([decoded(vertices[i : i + 1]) for i in range(len(vertices))])

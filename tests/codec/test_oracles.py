@@ -11,7 +11,7 @@ from ebz.codec.integers import decode_columns, encode_columns, zigzag
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
 from ebz.codec.sample import random_triangulation
-from ebz.formats import container
+from ebz.formats import ebz_file
 from tests import surgery
 from tests.meshes import face_lists, meshes, surfaces
 from tests.oracles import integers, reverse, specials
@@ -87,7 +87,7 @@ def test_carries_run_through_many_bytes(p1):
 def check_file(mesh: ebz.Mesh, model: str | None) -> None:
     """Decodes the connectivity of a file with nothing but the twins; no adaptive model."""
     data = ebz.compress(mesh, model=model)
-    encoded = container.read(memoryview(data), memory_limit=1 << 30)
+    encoded = ebz_file.read(memoryview(data), memory_limit=1 << 30)
     counts, streams = encoded.counts, encoded.streams
     decoded = pipeline.decode(encoded)
     word = "".join("CLRSE"[symbol] for symbol in decoded.word.symbols)

@@ -11,7 +11,8 @@ from hypothesis import example, given, note, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import lattice
+from ebz.codec import fitting
+from ebz.codec.fitting import Precision
 from ebz.codec.lattice import BoxLattice, StepLattice
 from tests.connectivity_check import same_mesh
 from tests.meshes import meshes, rngs
@@ -111,7 +112,7 @@ def test_compression_is_canonical_at_the_resolution_of_the_floats(data, n, rng):
 @pytest.mark.parametrize("bits", [1, 2, 8, 11, 14, 18, 20])
 def test_bits_give_a_grid_whose_step_divides_the_longest_side(bits, dtype):
     vertices = np.random.default_rng(bits).normal(size=(500, 3)).astype(dtype)
-    points = lattice.fit(vertices, bits=bits)
+    points = fitting.fit(vertices, Precision(bits=bits))
     side = float((vertices.max(axis=0).astype(float) - vertices.min(axis=0)).max())
     assert isinstance(points.lattice, BoxLattice)
     assert points.lattice.step == pytest.approx(side / (2**bits - 1), rel=1e-12)
@@ -122,7 +123,7 @@ def test_bits_give_a_grid_whose_step_divides_the_longest_side(bits, dtype):
 
 def test_max_error_gives_a_grid_of_nearly_twice_the_step():
     vertices = np.random.default_rng(0).normal(size=(500, 3))
-    points = lattice.fit(vertices, max_error=1e-3)
+    points = fitting.fit(vertices, Precision(max_error=1e-3))
     assert isinstance(points.lattice, StepLattice)
     assert points.lattice.step == pytest.approx(2e-3, rel=1e-3)
     assert len(points.exceptions) < 10
@@ -160,7 +161,7 @@ def test_numbers_that_overflow_on_a_decimal_lattice_are_exceptions(dtype):
     patterns = {4: [0x7F800001, 0x7F7FFFFF, 0xFF800000], 8: [0x7FF0000000000001, (0x7FF << 52) - 1]}
     words = np.array(patterns[vertices.itemsize], f"u{vertices.itemsize}")
     vertices[: len(words), 1] = words.view(dtype)
-    points = lattice.fit(vertices)
+    points = fitting.fit(vertices)
     assert points.lattice.kind == "decimal"
     assert len(points.exceptions) == len(words)
     mesh = ebz.Mesh(vertices, [])
@@ -173,7 +174,7 @@ def test_numbers_that_overflow_on_a_decimal_lattice_are_exceptions(dtype):
 @given(st.integers(0, 6), st.integers(1, 200), rngs)
 def test_decimals_are_found(digits, n, rng):
     vertices = rng.integers(-(10**6), 10**6, (n, 3)) / 10.0**digits
-    points = lattice.fit(vertices)
+    points = fitting.fit(vertices)
     assert points.lattice.kind == "decimal"
     assert points.lattice.digits <= digits
     assert not len(points.exceptions)

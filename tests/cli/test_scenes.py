@@ -1,0 +1,38 @@
+"""Files of several meshes in the shell."""
+
+import json
+
+import ebz
+from tests.cli.shell import Result
+from tests.codec.test_scene import scene
+
+
+def test_scenes_in_pipelines(sh, tmp_path):
+    (tmp_path / "s.ebz").write_bytes(ebz.compress(scene()))
+    other = scene()
+    other.parts[0].vertices[0] += 1
+    (tmp_path / "other.ebz").write_bytes(ebz.compress(other))
+    assert (
+        sh("ebz verify --against s.ebz s.ebz --json | grep -c '\"equal\": true'").stdout == b"1\n"
+    )
+    result = sh("ebz verify --against other.ebz s.ebz; echo $?")
+    assert b"part 0 'ball': " in result.stdout
+    assert result.stdout.endswith(b"\n2\n")
+    assert sh("ebz compress -c s.ebz | cmp - s.ebz") == Result(0, b"", b"")
+
+
+def test_statistics_of_scenes(sh, tmp_path):
+    (tmp_path / "s.ebz").write_bytes(ebz.compress(scene()))
+    lines = sh("ebz stats s.ebz").stdout.decode().splitlines()
+    assert lines[0].split() == ["parts", "3"]
+    assert {"part 0 'ball'", "part 1 'nothing'", "part 2"} < set(lines)
+    stats = json.loads(sh("ebz stats --json s.ebz").stdout)
+    assert stats["part 0 'ball'"]["vertices"] == scene().parts[0].n_vertices
+
+
+def test_scenes_as_one_mesh(sh, tmp_path):
+    (tmp_path / "s.ebz").write_bytes(ebz.compress(scene()))
+    result = sh("ebz decompress --to ply -c s.ebz | grep -a ^element")
+    n = sum(part.n_vertices for part in scene().parts)
+    assert result.stdout.split()[2] == str(n).encode()
+    assert b"ebz: warning: s.ebz: PLY holds one mesh: the 3 parts are joined\n" in result.stderr
