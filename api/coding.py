@@ -2,12 +2,15 @@
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, overload
 
 import numpy as np
 
 from ebz.codec import scenes
+from ebz.codec.attributes.octahedral import NORMAL_BITS
+from ebz.codec.attributes.precision import AttributePrecision
+from ebz.codec.attributes.rounding import require_names
 from ebz.codec.connectivity import OutputOrder
 from ebz.codec.errors import OptionError
 from ebz.codec.fitting import Precision
@@ -35,6 +38,9 @@ def compress(
     bits: int | None = ...,
     max_error: float | None = ...,
     grid: Grid | None = ...,
+    attribute_bits: Mapping[str, int] | None = ...,
+    attribute_error: Mapping[str, float] | None = ...,
+    normal_bits: int | None = ...,
     keep_order: bool = ...,
     return_permutation: Literal[False] = ...,
     level: int = ...,
@@ -51,6 +57,9 @@ def compress(
     bits: int | None = ...,
     max_error: float | None = ...,
     grid: Grid | None = ...,
+    attribute_bits: Mapping[str, int] | None = ...,
+    attribute_error: Mapping[str, float] | None = ...,
+    normal_bits: int | None = ...,
     keep_order: bool = ...,
     return_permutation: Literal[True],
     level: int = ...,
@@ -66,6 +75,9 @@ def compress(
     bits: int | None = None,
     max_error: float | None = None,
     grid: Grid | None = None,
+    attribute_bits: Mapping[str, int] | None = None,
+    attribute_error: Mapping[str, float] | None = None,
+    normal_bits: int | None = None,
     keep_order: bool = False,
     return_permutation: bool = False,
     level: int = DEFAULT_LEVEL,
@@ -73,13 +85,18 @@ def compress(
     embed_model: bool = False,
     progress: Progress | None = None,
 ) -> bytes | tuple[bytes, Permutation | list[Permutation]]:
-    """The .ebz bytes of a mesh or scene; without `bits`, `max_error` and `grid` nothing is lost.
+    """The .ebz bytes of a mesh or scene; without options that say so nothing is lost.
 
     bits: 1 to 30; the grid's step is the longest side of the bounding box / (2^bits - 1).  Parts of
     a scene are in one box.
     max_error: in model units; no coordinate moves by more.
     grid: (origin, step), origin a number or three: coordinates move to the nearest origin + step *
     integer, so that meshes which share vertices still do.  At most one of these three.
+    attribute_bits: by attribute's name, 1 to 30: values move to 2^bits steps along the widest range
+    of a component.  attribute_error: by name, no value moves by more.  Weights that add up to one
+    (floats, none negative) still do, to within a step, and may move by one.
+    normal_bits: 2 to 16: unit vectors named as normals become one of about 4^bits directions, and
+    stay unit vectors.
     keep_order: vertices, faces and the first corner of each face come back as they are; without it
     their order may change.
     return_permutation: also return where the vertices and faces of the decoded mesh come from; of a
@@ -97,11 +114,14 @@ def compress(
     lattice = None if grid is None else _grid(grid)
     _check_options(bits, max_error, lattice, level)
     table = None if model is None and not embed_model else load_model(model)
+    attributes = _attribute_precision(attribute_bits or {}, attribute_error or {}, normal_bits)
+    require_names(mesh.parts if isinstance(mesh, Scene) else [mesh], attributes)
     encoded, orders = scenes.encode(
         mesh,
         table,
         level=level,
         precision=Precision(bits, max_error, lattice),
+        attribute_precision=attributes,
         keep_order=keep_order,
         progress=progress,
     )
@@ -174,6 +194,22 @@ def _grid(grid: Grid) -> GridLattice:
     if not all(map(math.isfinite, (x, y, z))):
         raise OptionError(f"the origin of the grid is {origin}, not finite")
     return GridLattice((x, y, z), step)
+
+
+def _attribute_precision(
+    bits: Mapping[str, int], error: Mapping[str, float], normal_bits: int | None
+) -> AttributePrecision:
+    for name, n in bits.items():
+        if name in error:
+            raise OptionError(f"bits and error of attribute {name!r} exclude each other")
+        if not 1 <= n <= MAX_BITS:
+            raise OptionError(f"bits of attribute {name!r} are {n}, not 1 to {MAX_BITS}")
+    for name, limit in error.items():
+        if not (math.isfinite(limit) and limit >= 0):
+            raise OptionError(f"error of attribute {name!r} is {limit}, not at least 0 and finite")
+    if normal_bits is not None and normal_bits not in NORMAL_BITS:
+        raise OptionError(f"normal_bits is {normal_bits}, not 2 to {NORMAL_BITS[-1]}")
+    return AttributePrecision(dict(bits), dict(error), normal_bits)
 
 
 def _check_options(

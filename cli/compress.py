@@ -50,6 +50,26 @@ On a terminal, one line per file tells the sizes; -q omits it, -v says more.
     help="Round positions to ORIGIN (one number, or X,Y,Z) plus multiples of STEP.",
 )
 @click.option(
+    "--attribute-bits",
+    metavar="NAME=N",
+    multiple=True,
+    type=options.named(int),
+    help="Round attribute NAME to 2^N steps of its range.",
+)
+@click.option(
+    "--attribute-error",
+    metavar="NAME=X",
+    multiple=True,
+    type=options.named(float),
+    help="Move no value of attribute NAME by more than X.",
+)
+@click.option(
+    "--normal-bits",
+    metavar="N",
+    type=click.IntRange(2, 16),
+    help="Round normals to about 4^N directions.",
+)
+@click.option(
     "--keep-order",
     is_flag=True,
     help="Keep the order of vertices and faces and the first corner of each face.",
@@ -85,6 +105,8 @@ def compress(
     named = options.single_output(output, to_stdout, inputs)
     manner = Manner(force, remove and not keep, quiet, verbose)
     coding["level"] = level or 6
+    for name in ("attribute_bits", "attribute_error"):
+        coding[name] = dict(coding[name])
 
     def work(name: str) -> int:
         source = Input(name, force=force)

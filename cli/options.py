@@ -36,6 +36,21 @@ def grid(text: str) -> tuple[list[float], float]:
     return origin, step
 
 
+def named(kind: Callable[[str], Any]) -> Callable[[str], tuple[str, Any]]:
+    """A parser of NAME=VALUE; names may have = in them."""
+
+    def parse(text: str) -> tuple[str, Any]:
+        name, equals, value = text.rpartition("=")
+        try:
+            if equals:
+                return name, kind(value)
+        except ValueError:
+            pass
+        raise click.BadParameter(f"{text!r} is not NAME=VALUE, VALUE being a number.")
+
+    return parse
+
+
 class LevelOption(click.Option):
     """One of -1 .. -9; the first stands for all of them in the help."""
 

@@ -13,7 +13,8 @@ import numpy.typing as npt
 
 from ebz.codec import connectivity, matching, welding
 from ebz.codec import points as free_points
-from ebz.codec.elements import Element
+from ebz.codec.attributes import comparison
+from ebz.codec.attributes.comparison import Lattices
 from ebz.codec.errors import EbzError
 from ebz.codec.fitting import Precision, fit
 from ebz.codec.lattice import BoxLattice, GridLattice, Lattice, Points, StepLattice, restore
@@ -67,13 +68,16 @@ def compare(
     lattice: Lattice,
     checked: list[str],
     *,
+    lattices: Lattices | None = None,
     keeps_order: bool = False,
 ) -> Verification:
     """The verdict on a decoded mesh; raises UndecidedError where there is none.
 
-    lattice: the precision at which the mesh was stored.  keeps_order: whether its order was.
+    lattice, lattices: the precision at which the mesh and its attributes were stored.
+    keeps_order: whether its order was.
     """
     original = replace(original)  # its arrays may have been exchanged since they were checked
+    lattices = lattices or {}
     difference = _different_kind(decoded, original)
     if difference:
         return _refusal(decoded, difference, checked)
@@ -83,17 +87,17 @@ def compare(
         if isinstance(ordered, str):
             return _refusal(decoded, ordered, checked)
         checked = [*checked, "order of vertices and faces"]
-        return _verdict(decoded, original, ordered, allowed, checked)
+        return _verdict(decoded, original, ordered, allowed, lattices, checked)
     match = _by_traversal(decoded, original, lattice)
-    verdict = match and _verdict(decoded, original, match, allowed, checked)
+    verdict = match and _verdict(decoded, original, match, allowed, lattices, checked)
     if verdict and verdict.equal:
         return verdict
     # Symmetric surfaces are traversed alike in several ways: the data have the last word.
-    matched = _by_data(decoded, original, lattice)
+    matched = _by_data(decoded, comparison.as_stored(original, lattices), lattice)
     if isinstance(matched, tuple):
         corners = _corresponding_corners(decoded, original, *matched)
         match = _Correspondence(*matched, corners, "data")
-        return _verdict(decoded, original, match, allowed, checked)
+        return _verdict(decoded, original, match, allowed, lattices, checked)
     difference = matched or _different_face_data(decoded, original)
     if difference and (not allowed or _cannot_be_allowed(decoded, original, match, allowed)):
         return verdict or _refusal(decoded, difference, checked)
@@ -106,12 +110,17 @@ def _refusal(decoded: Mesh, difference: str, checked: list[str]) -> Verification
 
 
 def _verdict(
-    decoded: Mesh, original: Mesh, match: _Correspondence, allowed: float, checked: list[str]
+    decoded: Mesh,
+    original: Mesh,
+    match: _Correspondence,
+    allowed: float,
+    lattices: Lattices,
+    checked: list[str],
 ) -> Verification:
     checked = [*checked, "faces and their orientation", "coordinates"]
     source, got = original.vertices[match.vertices], decoded.vertices
     difference = _moved(got, source, allowed) or _other_attributes(
-        decoded, original, match, checked
+        decoded, original, match, checked, lattices
     )
     return Verification(
         equal=difference is None,
@@ -156,40 +165,10 @@ def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
         ("face", decoded.face_attributes, original.face_attributes),
         ("corner", decoded.corner_attributes, original.corner_attributes),
     ):
-        difference = _different_attributes(owner, ours, theirs)
+        difference = comparison.kinds_differ(owner, ours, theirs)
         if difference:
             return difference
-    return _different_elements(decoded.elements, original.elements)
-
-
-def _different_elements(got: dict[str, Element], wanted: dict[str, Element]) -> str | None:
-    for name in sorted(got.keys() | wanted.keys()):
-        if name not in got or name not in wanted:
-            return f"element {name!r}: {'missing' if name in wanted else 'not in MESH'}"
-        ours, theirs = got[name], wanted[name]
-        if not np.array_equal(ours.offsets, theirs.offsets):
-            return f"element {name!r}: rows of other lengths"
-        difference = _different_attributes(name, ours.attributes, theirs.attributes)
-        difference = difference or _different_attributes(
-            f"{name} corner", ours.corner_attributes, theirs.corner_attributes
-        )
-        if difference:
-            return difference
-    return None
-
-
-def _different_attributes(owner: str, got: Attributes, wanted: Attributes) -> str | None:
-    for name in sorted(got.keys() | wanted.keys()):
-        if name not in got or name not in wanted:
-            return f"{owner} attribute {name!r}: {'missing' if name in wanted else 'not in MESH'}"
-        for ours, theirs in zip(_kind(got[name]), _kind(wanted[name]), strict=True):
-            if ours != theirs:
-                return f"{owner} attribute {name!r}: {ours}, not {theirs}"
-    return None
-
-
-def _kind(values: npt.NDArray[Any]) -> tuple[str, str]:
-    return values.dtype.name, f"entries of shape {values.shape[1:]}"
+    return comparison.element_kinds_differ(decoded.elements, original.elements)
 
 
 def _by_order(decoded: Mesh, original: Mesh) -> _Correspondence | str:
@@ -344,7 +323,11 @@ def _same_bits(got: npt.NDArray[Any], source: npt.NDArray[Any]) -> npt.NDArray[n
 
 
 def _other_attributes(
-    decoded: Mesh, original: Mesh, match: _Correspondence, checked: list[str]
+    decoded: Mesh,
+    original: Mesh,
+    match: _Correspondence,
+    checked: list[str],
+    lattices: Lattices,
 ) -> str | None:
     for owner, got, wanted, order in (
         ("vertex", decoded.vertex_attributes, original.vertex_attributes, match.vertices),
@@ -353,34 +336,9 @@ def _other_attributes(
     ):
         if got or wanted:
             checked.append(f"{owner} attributes")
-        difference = _other_values(owner, got, wanted, order)
+        difference = comparison.values_differ(owner, got, wanted, order, lattices)
         if difference:
             return difference
     if decoded.elements:
         checked.append("elements")
-    return _other_elements(decoded.elements, original.elements, match)
-
-
-def _other_values(
-    owner: str, got: Attributes, wanted: Attributes, order: Order | slice
-) -> str | None:
-    for name in sorted(got):
-        if not np.array_equal(matching.as_bytes(got[name]), matching.as_bytes(wanted[name][order])):
-            return f"{owner} attribute {name!r}: values differ"
-    return None
-
-
-def _other_elements(
-    got: dict[str, Element], wanted: dict[str, Element], match: _Correspondence
-) -> str | None:
-    for name, ours in got.items():
-        theirs = wanted[name]
-        if not np.array_equal(match.vertices[ours.corners], theirs.corners):
-            return f"element {name!r}: corners at other vertices"
-        difference = _other_values(name, ours.attributes, theirs.attributes, slice(None))
-        difference = difference or _other_values(
-            f"{name} corner", ours.corner_attributes, theirs.corner_attributes, slice(None)
-        )
-        if difference:
-            return difference
-    return None
+    return comparison.elements_differ(decoded.elements, original.elements, match.vertices, lattices)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from ebz.codec.attributes.comparison import Lattices
 from ebz.codec.compare import Verification, compare
 from ebz.codec.lattice import Lattice
 from ebz.codec.mesh import Mesh
@@ -14,25 +15,36 @@ def compare_parts(
     lattices: Sequence[Lattice],
     checked: list[str],
     *,
+    attributes: Sequence[Lattices],
     keeps_order: bool = False,
 ) -> Verification:
     """The verdict on a decoded mesh or scene; the first difference names the part.
 
-    lattices: the precision at which each part was stored.  Raises UndecidedError.
+    lattices, attributes: the precision at which each part and its attributes were stored.
+    Raises UndecidedError.
     """
     if isinstance(decoded, Mesh) and isinstance(original, Mesh):
-        return compare(decoded, original, lattices[0], checked, keeps_order=keeps_order)
+        return compare(
+            decoded,
+            original,
+            lattices[0],
+            checked,
+            lattices=attributes[0],
+            keeps_order=keeps_order,
+        )
     difference = _different_kind(decoded, original)
     if difference or not (isinstance(decoded, Scene) and isinstance(original, Scene)):
         return summary(decoded, checked, difference)
     verdicts: list[Verification] = []
-    pairs = zip(decoded.parts, original.parts, lattices, strict=True)
-    for number, (ours, theirs, lattice) in enumerate(pairs):
+    pairs = zip(decoded.parts, original.parts, lattices, attributes, strict=True)
+    for number, (ours, theirs, lattice, others) in enumerate(pairs):
         if name_of(ours) != name_of(theirs):
             difference = f"name of part {number}: {name_of(ours)!r}, not {name_of(theirs)!r}"
             break
         with in_part(number, name_of(theirs)):
-            verdict = compare(ours, theirs, lattice, checked, keeps_order=keeps_order)
+            verdict = compare(
+                ours, theirs, lattice, checked, lattices=others, keeps_order=keeps_order
+            )
         verdicts.append(verdict)
         if not verdict.equal:
             difference = f"{label(number, name_of(theirs))}: {verdict.first_difference}"

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ebz.codec.attributes.plan import Plan
 from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
 from ebz.codec.order import OrderStreams
@@ -15,17 +16,25 @@ from ebz.codec.positions import Method
 
 @dataclass(frozen=True)
 class EncodedArray:
-    """An attribute: `shape` is that of one entry, `data` codes all entries in output order.
+    """Attributes that are coded together: `data` codes all entries in output order.
 
-    seams: of an attribute of corners, where those at a vertex differ; b"": nowhere.
+    names: of one attribute whose entries have `shape`, or of the components of the entries.
+    plan: how they are coded.
+    seams: of attributes of corners, where those at a vertex differ; b"": nowhere.
     """
 
-    name: str
+    names: tuple[str, ...]
     dtype: np.dtype[Any]
     shape: tuple[int, ...]
     data: bytes
+    plan: Plan = field(default_factory=Plan)
     seams: bytes = b""
     place: str = "attribute"
+
+    @property
+    def n_components(self) -> int:
+        """Values of one entry."""
+        return math.prod(self.shape)
 
     @property
     def entry_size(self) -> int:

@@ -12,7 +12,10 @@ from ebz.codec import order as source_order
 from ebz.codec import points as free_points
 from ebz.codec.arrays import Attributes, face_dtype
 from ebz.codec.attributes import coding, corners, rows
+from ebz.codec.attributes.coding import EXACT
 from ebz.codec.attributes.items import Sites
+from ebz.codec.attributes.precision import AttributePrecision
+from ebz.codec.attributes.rounding import rounded
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.elements import Element
@@ -62,6 +65,7 @@ def encode(
     precision: Precision = LOSSLESS,
     points: Points | None = None,
     keep_order: bool = False,
+    attribute_precision: AttributePrecision = EXACT,
     progress: Progress | None = None,
 ) -> tuple[EncodedMesh, OutputOrder]:
     """Every part of a mesh as streams, and where the items of the output come from.
@@ -75,6 +79,7 @@ def encode(
     if not mesh.is_triangles:
         raise MeshError("only triangles can be coded")
     fitting.check(mesh.vertices, precision)
+    mesh = rounded(mesh, attribute_precision)
     report("lattice", 0, N_STAGES)
     points = points or fitting.fit(mesh.vertices, precision)
     exact = mesh.vertices.reshape(-1)[points.exceptions]
@@ -100,7 +105,7 @@ def encode(
     split = welding.split(surface, arrangement.splits, len(stored))
     known = source_order.Known(surface.opposite, split.vertex, points.integers[split.site])
     kept = source_order.kept(order, keep_order=keep_order, keep_rotation=keep_rotation)
-    sites = Sites(surface.opposite, split.vertex, stored[order.vertices])
+    sites = Sites(surface.opposite, split.vertex, stored[order.vertices], split.site)
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -120,10 +125,16 @@ def encode(
             exception_values=_encode_values(exact),
             order=source_order.encode(kept, known),
         ),
-        vertex_attributes=coding.encode(mesh.vertex_attributes, order.vertices, sites.by_vertex),
-        face_attributes=coding.encode(mesh.face_attributes, order.faces, sites.by_face),
-        corner_attributes=corners.encode(mesh.corner_attributes, order.all_corners, sites),
-        elements=rows.encode(mesh.elements, order.number_of),
+        vertex_attributes=coding.encode(
+            mesh.vertex_attributes, order.vertices, sites.by_vertex, attribute_precision
+        ),
+        face_attributes=coding.encode(
+            mesh.face_attributes, order.faces, sites.by_face, attribute_precision
+        ),
+        corner_attributes=corners.encode(
+            mesh.corner_attributes, order.all_corners, sites, attribute_precision
+        ),
+        elements=rows.encode(mesh.elements, order.number_of, attribute_precision),
         metadata=metadata.encode(mesh.metadata),
     )
     decoded = _restored(mesh, order, kept, sites)
@@ -162,7 +173,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         vertices = vertices[split.site]
     report("attributes", 3, N_STAGES)
     known = source_order.Known(surface.opposite, split.vertex, integers[split.site])
-    sites = Sites(surface.opposite, split.vertex, vertices)
+    sites = Sites(surface.opposite, split.vertex, vertices, split.site)
     carried = Carried(
         coding.decode(encoded.vertex_attributes, sites.by_vertex),
         coding.decode(encoded.face_attributes, sites.by_face),

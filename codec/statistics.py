@@ -170,7 +170,7 @@ def _attribute_names(encoded: EncodedMesh) -> dict[str, str]:
     for owner, _, arrays in _owners(encoded):
         for array in arrays:
             shape = "".join(f" x {extent}" for extent in array.shape)
-            described[f"{owner} {array.name}"] = f"{array.dtype.name}{shape}"
+            described[f"{owner} {', '.join(array.names)}"] = f"{array.dtype.name}{shape}"
     return described
 
 

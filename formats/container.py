@@ -1,6 +1,6 @@
 """The chunks of one mesh <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -78,17 +78,20 @@ def read(data: memoryview, offset: int) -> tuple[EncodedMesh, int]:
     for chunk in _in_order(data, offset):
         found[chunk.type] = chunk
         if chunk.type in ATTRIBUTES:
-            _append(arrays[chunk.type], records.parse_attribute(chunk), chunk)
+            array = records.parse_attribute(chunk)
+            _check_names(array.names, [n for a in arrays[chunk.type] for n in a.names], chunk)
+            arrays[chunk.type].append(array)
         elif chunk.type == layout.ELEMENT:
-            _append(elements, records.parse_element(chunk), chunk)
+            element = records.parse_element(chunk)
+            _check_names([element.name], [other.name for other in elements], chunk)
+            elements.append(element)
     end = found[layout.END]
     return _parse(found, arrays, elements), end.offset + end.size
 
 
-def _append(parts: list[Any], part: EncodedArray | EncodedElement, chunk: Chunk) -> None:
+def _check_names(names: Sequence[str], others: list[str], chunk: Chunk) -> None:
     with corrupt_at(chunk.where):
-        records.check_name(part.name, [other.name for other in parts])
-    parts.append(part)
+        records.check_names(names, others)
 
 
 def _in_order(data: memoryview, offset: int) -> Iterator[Chunk]:

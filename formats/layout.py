@@ -9,6 +9,7 @@ from construct import (
     Check,
     Construct,
     ConstructError,
+    Enum,
     Float32l,
     Float64l,
     GreedyBytes,
@@ -16,6 +17,7 @@ from construct import (
     IfThenElse,
     Int8ul,
     Int16ul,
+    Int64sl,
     IntegerError,
     Pass,
     Prefixed,
@@ -176,11 +178,45 @@ Stack = Struct(
 
 Exceptions = Struct("rows" / Prefixed(VarInt, GreedyBytes), "exact" / GreedyBytes)
 
+ATTRIBUTE_LATTICES = ("exact", "decimal", "fraction", "box", "step", "shares", "octahedral")
+
+AttributeLattice = Struct(
+    "kind" / Enum(Byte, **{name: i for i, name in enumerate(ATTRIBUTE_LATTICES)}),
+    "parameters"
+    / Switch(
+        lambda context: str(context.kind),
+        {
+            "exact": Struct(),
+            "decimal": Struct("digits" / Byte),
+            "fraction": Struct("divisor" / VarInt),
+            "box": Struct(
+                "bits" / Byte, "origin" / PrefixedArray(VarInt, Float64l), "side" / Float64l
+            ),
+            "step": Struct("max_error" / Float64l),
+            "shares": Struct("bits" / Byte),
+            "octahedral": Struct("bits" / Byte),
+        },
+    ),
+)
+
+Plan = Struct(
+    "lattice" / AttributeLattice,
+    "method" / Byte,
+    "guess" / Byte,
+    "relation" / Byte,
+    "total" / If(this.relation > 0, Float64l),
+    "specials" / Prefixed(VarInt, GreedyBytes),
+    "special_start" / If(lambda context: len(context.specials) > 0, Int64sl),
+    "n_labels" / VarInt,
+    "labels" / If(this.n_labels > 0, Prefixed(VarInt, GreedyBytes)),
+)
+
 Attribute = Struct(
-    "name" / Prefixed(VarInt, GreedyBytes),
+    "names" / PrefixedArray(VarInt, Prefixed(VarInt, GreedyBytes)),
     "kind" / Bytes(1),  # b, i, u, f as in numpy
     "itemsize" / Byte,
     "shape" / PrefixedArray(Byte, VarInt),  # of one entry
+    "plan" / Plan,
     "seams" / Prefixed(VarInt, GreedyBytes),
     "data" / GreedyBytes,
 )

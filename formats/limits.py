@@ -28,6 +28,7 @@ BYTES_PER_PART = 16 << 10
 BYTES_PER_CHARACTER = 32
 BYTES_PER_CORNER = 48  # the wedges of an attribute of corners
 BYTES_PER_ROW = 32
+BYTES_PER_COMPONENT = 64  # of an attribute: integers, the model's sizes, masks
 
 
 def check_memory(n_bytes: int, memory_limit: int) -> None:
@@ -79,7 +80,9 @@ def declared_size(encoded: EncodedMesh) -> int:
     # What is at a vertex may be one value: only decoding tells.
     n_corners = 3 * counts.n_faces
     size += sum(
-        n_corners * (3 * array.entry_size + BYTES_PER_CORNER) for array in encoded.corner_attributes
+        n_corners
+        * (3 * array.entry_size + BYTES_PER_COMPONENT * array.n_components + BYTES_PER_CORNER)
+        for array in encoded.corner_attributes
     )
     size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices
     return size + text_size + BYTES_PER_INTEGER * n_integers
@@ -126,6 +129,9 @@ def _arrays_size(arrays: list[EncodedArray], n: int) -> int:
     for array in arrays:
         entry = array.entry_size
         with corrupt_at(array.place):
-            _check(f"bytes of {array.name!r}", n * entry, 8 * CHEAPEST_BIT, array.data)
-        size += 3 * n * entry
+            name = ", ".join(array.names)
+            _check(f"values of {name!r}", n * array.n_components, CHEAPEST_DECISION, array.data)
+            _check("labels", array.plan.n_labels, CHEAPEST_BIT, array.plan.labels)
+        size += n * (3 * entry + BYTES_PER_COMPONENT * array.n_components)
+        size += BYTES_PER_INTEGER * array.plan.n_labels
     return size

@@ -1,6 +1,7 @@
 """Attributes and elements <-> the payloads of their chunks, which describe themselves."""
 
 import math
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from ebz.codec.arrays import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
 from ebz.codec.encoded import EncodedArray, EncodedElement
 from ebz.codec.errors import CorruptError, corrupt_at
-from ebz.formats import layout
+from ebz.formats import layout, plans
 from ebz.formats.chunks import Chunk
 
 # Longer floats exist on some machines only.
@@ -63,18 +64,22 @@ def parse_element(chunk: Chunk) -> EncodedElement:
         )
 
 
-def check_name(name: str, others: list[str]) -> None:
+def check_names(names: Sequence[str], others: Iterable[str]) -> None:
     """Raise CorruptError where a name is there already."""
-    if name in others:
-        raise CorruptError(f"there is a {name!r} already")
+    known = set(others)
+    for name in names:
+        if name in known:
+            raise CorruptError(f"there is a {name!r} already")
+        known.add(name)
 
 
 def _attribute(array: EncodedArray) -> dict[str, Any]:
     return {
-        "name": _to_bytes(array.name),
+        "names": [_to_bytes(name) for name in array.names],
         "kind": array.dtype.kind.encode(),
         "itemsize": array.dtype.itemsize,
         "shape": array.shape,
+        "plan": plans.build(array.plan),
         "seams": array.seams,
         "data": array.data,
     }
@@ -84,14 +89,19 @@ def _parse_attribute(parsed: Any, where: str) -> EncodedArray:
     dtype, shape = _parse_dtype(parsed), tuple(parsed.shape)
     if len(shape) >= MAX_DIMENSIONS or math.prod(filter(None, shape)) >= MAX_ENTRY:
         raise CorruptError(f"an attribute of shape {shape}")
-    return EncodedArray(_parse_name(parsed.name), dtype, shape, parsed.data, parsed.seams, where)
+    names = tuple(_parse_name(name) for name in parsed.names)
+    check_names(names, [])
+    if len(names) != 1 and shape != (len(names),):
+        raise CorruptError(f"{len(names)} names for entries of shape {shape}")
+    plan = plans.parse(parsed.plan, dtype, math.prod(shape))
+    return EncodedArray(names, dtype, shape, parsed.data, plan, parsed.seams, where)
 
 
 def _parse_all(parsed: list[Any], where: str) -> list[EncodedArray]:
     arrays: list[EncodedArray] = []
     for one in parsed:
         array = _parse_attribute(one, where)
-        check_name(array.name, [other.name for other in arrays])
+        check_names(array.names, [name for other in arrays for name in other.names])
         arrays.append(array)
     return arrays
 

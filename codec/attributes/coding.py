@@ -1,5 +1,10 @@
-"""Entries of one attribute <-> its stream, bit for bit."""
+"""Entries of attributes <-> streams.
 
+Values -> integers on a lattice -> labels where few occur -> bytes, and back.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -7,31 +12,126 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels
 from ebz.codec.arrays import Attributes
+from ebz.codec.attributes import guesses, labels, lattices, relations, specials
+from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items
+from ebz.codec.attributes.lattices import BitsLattice
+from ebz.codec.attributes.octahedral import Octahedral
+from ebz.codec.attributes.plan import Guess, Method, Plan
+from ebz.codec.attributes.precision import AttributePrecision, lattice_of
 from ebz.codec.encoded import EncodedArray
+from ebz.codec.errors import CorruptError, corrupt_at
+from ebz.codec.lattice import Integers
+
+EXACT = AttributePrecision()
+SPACES = {2: 1, 4: 1, 8: 2}  # of floats by their bits; halves are coded as the integers they are
 
 
-def encode(attributes: Attributes, order: npt.NDArray[Any], items: Items) -> list[EncodedArray]:
-    """A stream per attribute; `order` gives the source entry of each output entry."""
-    return [encode_array(name, values[order], items) for name, values in attributes.items()]
+def encode(
+    attributes: Attributes,
+    order: npt.NDArray[Any],
+    items: Items,
+    precision: AttributePrecision = EXACT,
+) -> list[EncodedArray]:
+    """A stream per bundle; `order` gives the source entry of each output entry."""
+    return [
+        encode_bundle(replace(bundle, values=bundle.values[order]), items, precision)
+        for bundle in bundles(attributes, precision.of)
+    ]
 
 
 def decode(arrays: list[EncodedArray], items: Items) -> Attributes:
-    """The attributes by name; whatever the bytes are, arrays of n entries come back."""
-    return {array.name: decode_array(array, items) for array in arrays}
+    """The attributes by name; raises CorruptError."""
+    named: Attributes = {}
+    for array in arrays:
+        named |= by_name(array, decode_array(array, items))
+    return named
 
 
-def encode_array(name: str, values: npt.NDArray[Any], items: Items) -> EncodedArray:
-    little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
-    stride = little[:1].nbytes
-    data = little.view(np.uint8).reshape(-1) if stride else np.zeros(0, np.uint8)
-    stream = _kernels.encode_rows(data, stride) if stride else b""
-    return EncodedArray(name, values.dtype.newbyteorder("="), values.shape[1:], stream)
+def by_name(array: EncodedArray, values: npt.NDArray[Any]) -> Attributes:
+    """The attributes of a bundle."""
+    if len(array.names) == 1:
+        return {array.names[0]: values}
+    return {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(array.names)}
+
+
+def encode_bundle(
+    bundle: Bundle, items: Items, precision: AttributePrecision = EXACT
+) -> EncodedArray:
+    """The shortest of the streams that suit the values."""
+    values = bundle.values
+    array = EncodedArray(bundle.names, values.dtype.newbyteorder("="), values.shape[1:], b"")
+    if not values.size:
+        return array
+    flat = values.reshape(len(values), -1)
+    lattice = lattice_of(flat, precision.of(bundle.names[0])) or lattices.fit(flat)
+    plan, integers = specials.integers(flat, lattice)
+    plans = _plans(plan, integers, flat, items, array)
+    candidates = [(chosen, _encode(chosen, coded, items, array)) for chosen, coded in plans]
+    best, data = min(candidates, key=lambda pair: len(pair[1]) + len(pair[0].labels))
+    return replace(array, plan=best, data=data)
 
 
 def decode_array(array: EncodedArray, items: Items) -> npt.NDArray[Any]:
-    shape, stride = (items.n, *array.shape), array.entry_size
-    if not items.n or not stride:
+    """(n, ...) entries; raises CorruptError."""
+    shape = (items.n, *array.shape)
+    n_values = array.n_components
+    if not items.n or not n_values:
         return np.zeros(shape, array.dtype)
-    data = _kernels.decode_rows(np.frombuffer(array.data, np.uint8), items.n, stride)
-    return data.view(array.dtype.newbyteorder("<")).reshape(shape).astype(array.dtype, copy=False)
+    with corrupt_at(array.place):
+        integers = _decode(array, items)
+        if array.plan.n_labels:
+            integers = labels.decode(integers, array.plan)
+        values = specials.values(integers, array.plan, array.dtype)
+        if values.size != items.n * n_values:
+            raise CorruptError("entries of another number of components")
+    return values.reshape(shape)
+
+
+def _plans(
+    plan: Plan, integers: Integers, values: npt.NDArray[Any], items: Items, array: EncodedArray
+) -> Iterator[tuple[Plan, Integers]]:
+    """Ways to code the integers, and what they make of them."""
+    related = relations.find(plan, integers, array.dtype)
+    guess = guesses.best(related, values, items)
+    yield replace(related, guess=guess), integers
+    labelled = labels.encode(integers)
+    if labelled is not None:
+        n_labels, stream, numbers = labelled
+        for method in (Method.SYMBOLS, Method.NUMBERS):
+            yield replace(plan, method=method, n_labels=n_labels, labels=stream), numbers
+
+
+def _encode(plan: Plan, integers: Integers, items: Items, array: EncodedArray) -> bytes:
+    values = np.ascontiguousarray(integers).reshape(-1)
+    return _kernels.encode_attribute(**_known(plan, items, array, integers.shape[1]), values=values)
+
+
+def _decode(array: EncodedArray, items: Items) -> Integers:
+    width = 2 if isinstance(array.plan.lattice, Octahedral) else array.n_components
+    known = _known(array.plan, items, array, width)
+    data = np.frombuffer(array.data, np.uint8)
+    return _kernels.decode_attribute(data, **known).reshape(items.n, width)
+
+
+def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[str, Any]:
+    """What both sides tell the kernel."""
+    in_floats = isinstance(plan.lattice, BitsLattice) and not plan.n_labels
+    space = SPACES[array.dtype.itemsize] if in_floats and array.dtype.itemsize > 2 else 0
+    guess = np.zeros(0, np.int64)
+    if plan.guess != Guess.NONE and not plan.n_labels:
+        guess = guesses.integers(plan, array.dtype, items)
+    points = items.points.reshape(-1) if width == 2 and not plan.n_labels else np.zeros(0)
+    return {
+        "opposite": items.opposite,
+        "item": items.item,
+        "n": items.n,
+        "n_components": width,
+        "points": points,
+        "site": items.site,
+        "guess": guess.reshape(-1),
+        "method": plan.method,
+        "space": space,
+        "relation": plan.relation,
+        "total": plan.total,
+    }

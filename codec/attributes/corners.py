@@ -9,29 +9,39 @@ import numpy.typing as npt
 from ebz.codec import _kernels
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding
+from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items, Sites
+from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.connectivity import Int32s, number_by_first_use
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import corrupt_at
 
 
-def encode(attributes: Attributes, order: npt.NDArray[Any], sites: Sites) -> list[EncodedArray]:
-    """A stream per attribute; `order` gives the source corner of each corner of the output."""
-    return [_encode(name, values[order], sites) for name, values in attributes.items()]
+def encode(
+    attributes: Attributes, order: npt.NDArray[Any], sites: Sites, precision: AttributePrecision
+) -> list[EncodedArray]:
+    """A stream per bundle; `order` gives the source corner of each corner of the output."""
+    return [
+        _encode(replace(bundle, values=bundle.values[order]), sites, precision)
+        for bundle in bundles(attributes, precision.of)
+    ]
 
 
 def decode(arrays: list[EncodedArray], sites: Sites) -> Attributes:
     """The attributes of the 3m corners of the output; raises CorruptError."""
-    return {array.name: _decode(array, sites) for array in arrays}
+    named: Attributes = {}
+    for array in arrays:
+        named |= coding.by_name(array, _decode(array, sites))
+    return named
 
 
-def _encode(name: str, values: npt.NDArray[Any], sites: Sites) -> EncodedArray:
-    wedge, is_first = _wedges(values, sites.vertex)
+def _encode(bundle: Bundle, sites: Sites, precision: AttributePrecision) -> EncodedArray:
+    wedge, is_first = _wedges(bundle.values, sites.vertex)
     seams = b""
     if int(wedge.max(initial=-1)) != int(sites.vertex.max(initial=-1)):
         seams = _kernels.encode_splits(sites.opposite, sites.vertex, sites.n_vertices, wedge)
-    array = coding.encode_array(name, values[is_first], _items(wedge, sites))
-    return replace(array, seams=seams)
+    bundle = replace(bundle, values=bundle.values[is_first])
+    return replace(coding.encode_bundle(bundle, _items(wedge, sites), precision), seams=seams)
 
 
 def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:

@@ -1,6 +1,6 @@
 """What the entries of an attribute stand for, and how they lie along the surface."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -10,6 +10,8 @@ import numpy.typing as npt
 from ebz.codec.connectivity import Int32s
 
 Floats = npt.NDArray[np.float64]
+NOTHING = np.zeros(0, np.int32)
+NOWHERE = np.zeros((0, 3))
 
 
 @dataclass(frozen=True)
@@ -17,12 +19,14 @@ class Sites:
     """The decoded surface that all attributes share, in output order.
 
     opposite, vertex: (3m,) the half-edge across, and the vertex of each corner.
-    vertices: (n, 3) float32 or float64, as decoded.
+    vertices: (n, 3) float32 or float64, as decoded.  site: (n,) that of each vertex: those of one
+    site have the same coordinates.
     """
 
     opposite: Int32s
     vertex: Int32s
     vertices: npt.NDArray[Any]
+    site: npt.NDArray[Any]
 
     @property
     def n_vertices(self) -> int:
@@ -35,25 +39,66 @@ class Sites:
     @cached_property
     def by_vertex(self) -> "Items":
         """A vertex each."""
-        return Items(self.n_vertices, self.opposite, self.vertex)
+        return Items(self.n_vertices, self.opposite, self.vertex, self, np.arange(self.n_vertices))
 
     @cached_property
     def by_face(self) -> "Items":
         """A face each."""
-        return Items(self.n_faces, self.opposite)
+        return Items(self.n_faces, self.opposite, sites=self)
 
     def by_wedge(self, wedge: Int32s, n_wedges: int) -> "Items":
         """The corners of one wedge each: those at a vertex that have the same value."""
-        return Items(n_wedges, self.opposite, wedge)
+        vertex = np.zeros(n_wedges, np.int32)
+        vertex[wedge] = self.vertex
+        return Items(n_wedges, self.opposite, wedge, self, vertex)
+
+    @cached_property
+    def points(self) -> Floats:
+        """(n, 3) the coordinates of the vertices."""
+        with np.errstate(invalid="ignore"):
+            return self.vertices.astype(np.float64)
 
 
 @dataclass(frozen=True)
 class Items:
-    """n entries; item: (3m,) that of each corner, None where entries are those of faces or rows."""
+    """n entries, along a surface where there is one.
+
+    opposite, item: (3m,) the half-edge across and the entry of each corner; without item, entries
+    are those of the faces; without both they are rows.  at: (n,) the vertex of each entry.
+    """
 
     n: int
-    opposite: Int32s | None = None
-    item: Int32s | None = None
+    opposite: Int32s = field(default_factory=lambda: NOTHING)
+    item: Int32s = field(default_factory=lambda: NOTHING)
+    sites: Sites | None = None
+    at: npt.NDArray[Any] = field(default_factory=lambda: NOTHING)
+
+    @property
+    def has_surface(self) -> bool:
+        return len(self.opposite) > 0
+
+    @property
+    def is_by_corner(self) -> bool:
+        """Whether entries are those of corners, not of faces."""
+        return len(self.item) > 0
+
+    @property
+    def points(self) -> Floats:
+        """(n, 3) where entries are, nothing where they are nowhere."""
+        return NOWHERE if self.sites is None else self.sites.points[self.at]
+
+    @property
+    def corner_points(self) -> Floats:
+        """(3m, 3) where the corners of the surface are."""
+        return NOWHERE if self.sites is None else self.sites.points[self.sites.vertex]
+
+    @property
+    def site(self) -> Int32s:
+        """(n,) entries of one site are at one place; nothing where none are."""
+        if self.sites is None or not len(self.at):
+            return NOTHING
+        site = self.sites.site[self.at].astype(np.int32)
+        return site if int(site.max()) + 1 < len(site) else NOTHING
 
 
 def rows(n: int) -> Items:

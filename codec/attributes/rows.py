@@ -9,7 +9,9 @@ import numpy.typing as npt
 
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding
+from ebz.codec.attributes.bundles import Bundle
 from ebz.codec.attributes.items import rows
+from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedArray, EncodedElement
 from ebz.codec.errors import CorruptError, corrupt_at
@@ -17,9 +19,11 @@ from ebz.codec.errors import CorruptError, corrupt_at
 Renumber = Callable[[npt.NDArray[Any]], npt.NDArray[Any]]
 
 
-def encode(elements: dict[str, Element], renumber: Renumber) -> list[EncodedElement]:
+def encode(
+    elements: dict[str, Element], renumber: Renumber, precision: AttributePrecision
+) -> list[EncodedElement]:
     """An element each; renumber: from vertices of the source to those of the output."""
-    return [_encode(name, element, renumber) for name, element in elements.items()]
+    return [_encode(name, element, renumber, precision) for name, element in elements.items()]
 
 
 def decode(elements: list[EncodedElement], n_vertices: int) -> dict[str, Element]:
@@ -35,7 +39,9 @@ def renumbered(elements: dict[str, Element], renumber: Renumber) -> dict[str, El
     }
 
 
-def _encode(name: str, element: Element, renumber: Renumber) -> EncodedElement:
+def _encode(
+    name: str, element: Element, renumber: Renumber, precision: AttributePrecision
+) -> EncodedElement:
     lengths = np.diff(element.offsets)
     width = int(lengths[0]) if len(lengths) else 0
     is_uniform = bool((lengths == width).all())
@@ -44,15 +50,21 @@ def _encode(name: str, element: Element, renumber: Renumber) -> EncodedElement:
         name=name,
         n_rows=len(element),
         n_corners=corners.size,
-        lengths=None if is_uniform else coding.encode_array("", lengths, rows(len(lengths))),
-        corners=coding.encode_array("", corners, rows(len(corners))),
-        attributes=_encode_all(element.attributes, len(element)),
-        corner_attributes=_encode_all(element.corner_attributes, corners.size),
+        lengths=None if is_uniform else _encode_one(lengths),
+        corners=_encode_one(corners),
+        attributes=_encode_all(element.attributes, len(element), precision),
+        corner_attributes=_encode_all(element.corner_attributes, corners.size, precision),
     )
 
 
-def _encode_all(attributes: Attributes, n: int) -> list[EncodedArray]:
-    return coding.encode(attributes, np.arange(n), rows(n))
+def _encode_one(values: npt.NDArray[Any]) -> EncodedArray:
+    return coding.encode_bundle(Bundle(("",), values), rows(len(values)))
+
+
+def _encode_all(
+    attributes: Attributes, n: int, precision: AttributePrecision
+) -> list[EncodedArray]:
+    return coding.encode(attributes, np.arange(n), rows(n), precision)
 
 
 def _decode(element: EncodedElement, n_vertices: int) -> Element:

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "byte_planes.hpp"
+#include "attributes/attributes.hpp"
 #include "connectivity.hpp"
 #include "errors.hpp"
 #include "instructions.hpp"
@@ -264,18 +264,6 @@ Array<uint64_t> decode_integers(const Input<uint8_t>& bytes, size_t n_rows, size
     return to_numpy(without_gil([&] { return ebz::decode_integers(view(bytes), n_rows, n_columns); }));
 }
 
-nb::bytes encode_rows(const Input<uint8_t>& rows, size_t stride) {
-    return to_bytes(without_gil([&] { return ebz::encode_rows(view(rows), stride); }));
-}
-
-Array<uint8_t> decode_rows(const Input<uint8_t>& bytes, size_t n_rows, size_t stride) {
-    return to_numpy(without_gil([&] {
-        std::vector<uint8_t> rows(n_rows * stride);
-        ebz::decode_rows(view(bytes), stride, rows);
-        return rows;
-    }));
-}
-
 nb::bytes encode_text(const Input<uint8_t>& prior, const Input<uint8_t>& text) {
     return to_bytes(without_gil([&] { return ebz::encode_text(view(prior), view(text)); }));
 }
@@ -292,6 +280,49 @@ std::tuple<int32_t, int32_t, int32_t, int32_t> describe(const Input<int32_t>& op
     const ebz::Topology topology = without_gil([&] { return ebz::describe(view(opposite)); });
     return std::make_tuple(topology.n_components, topology.n_boundary_loops, topology.n_boundary_edges,
                           topology.n_edges);
+}
+
+// The arrays must stay.
+ebz::attributes::Items attribute_items(const Input<int32_t>& opposite, const Input<int32_t>& item, int32_t n,
+                                       size_t n_components, const Input<double>& points,
+                                       const Input<int32_t>& site, const Input<int64_t>& guess) {
+    return {view(opposite), view(item), n, n_components, view(points), view(site), view(guess)};
+}
+
+ebz::attributes::Coding attribute_coding(int method, int space, int relation, double total) {
+    return {static_cast<ebz::attributes::Method>(method), static_cast<ebz::attributes::Space>(space),
+            static_cast<ebz::attributes::Relation>(relation), total};
+}
+
+nb::bytes encode_attribute(const Input<int32_t>& opposite, const Input<int32_t>& item, int32_t n,
+                           size_t n_components, const Input<double>& points, const Input<int32_t>& site,
+                           const Input<int64_t>& guess, int method, int space, int relation, double total,
+                           const Input<int64_t>& values) {
+    const auto items = attribute_items(opposite, item, n, n_components, points, site, guess);
+    const auto coding = attribute_coding(method, space, relation, total);
+    return to_bytes(without_gil([&] { return ebz::attributes::encode(items, coding, view(values)); }));
+}
+
+Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                const Input<int32_t>& item, int32_t n, size_t n_components,
+                                const Input<double>& points, const Input<int32_t>& site,
+                                const Input<int64_t>& guess, int method, int space, int relation, double total) {
+    const auto items = attribute_items(opposite, item, n, n_components, points, site, guess);
+    const auto coding = attribute_coding(method, space, relation, total);
+    return to_numpy(without_gil([&] {
+        std::vector<int64_t> values(static_cast<size_t>(n) * n_components);
+        ebz::attributes::decode(view(bytes), items, coding, values);
+        return values;
+    }));
+}
+
+void bind_attributes(nb::module_& m) {
+    m.def("encode_attribute", &encode_attribute, "opposite"_a, "item"_a, "n"_a, "n_components"_a, "points"_a,
+          "site"_a, "guess"_a, "method"_a, "space"_a, "relation"_a, "total"_a, "values"_a,
+          "The bytes of n rows of integers, of items of a surface, of its faces, or of a list.");
+    m.def("decode_attribute", &decode_attribute, "data"_a, "opposite"_a, "item"_a, "n"_a, "n_components"_a,
+          "points"_a, "site"_a, "guess"_a, "method"_a, "space"_a, "relation"_a, "total"_a,
+          "The rows, flattened.");
 }
 
 void bind_orders(nb::module_& m) {
@@ -361,6 +392,7 @@ NB_MODULE(_kernels, m) {
     m.def("weld", &weld<int32_t>, "faces"_a, "positions"_a);
     m.def("weld", &weld<int64_t>, "faces"_a, "positions"_a,
           "For each vertex the first that stands for it, empty if nothing is welded.");
+    bind_attributes(m);
     bind_orders(m);
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
@@ -371,8 +403,6 @@ NB_MODULE(_kernels, m) {
           "The rows, flattened.");
     m.def("encode_text", &encode_text, "prior"_a, "text"_a, "Text like the prior.");
     m.def("decode_text", &decode_text, "prior"_a, "data"_a, "n_bytes"_a, "The text.");
-    m.def("encode_rows", &encode_rows, "rows"_a, "stride"_a, "Rows of `stride` bytes.");
-    m.def("decode_rows", &decode_rows, "data"_a, "n_rows"_a, "stride"_a, "The rows, flattened.");
     m.def("describe", &describe, "opposite"_a,
           "Numbers of components, boundary loops, boundary edges and edges of a surface.");
 }

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import _kernels, connectivity, pipeline
+from ebz.codec import connectivity, pipeline
 from ebz.codec.integers import decode_columns, encode_columns, zigzag
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
@@ -148,11 +148,3 @@ def test_words_are_encoded_alike(name, faces):
 def test_zigzag_is_the_textbook_one(values):
     expected = [2 * value if value >= 0 else -2 * value - 1 for value in values]
     assert zigzag(np.array(values, np.int64)).tolist() == expected
-
-
-@settings(max_examples=50, deadline=None)
-@given(st.binary(max_size=60), st.integers(1, 20))
-def test_rows_of_bytes_come_back(data, stride):
-    rows = np.frombuffer(data[: len(data) // stride * stride], np.uint8)
-    encoded = np.frombuffer(_kernels.encode_rows(rows, stride), np.uint8)
-    assert np.array_equal(_kernels.decode_rows(encoded, len(rows) // stride, stride), rows)

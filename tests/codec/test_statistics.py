@@ -59,7 +59,11 @@ def test_counts_and_sizes_add_up(path):
     framing = sum(s.bytes for s in found.streams if s.name in {"start", "header", "digest"})
     assert parts + framing == found.total_bytes
     raw = mesh.vertices.nbytes + 12 * len(mesh.faces)
-    carried = [*mesh.vertex_attributes.values(), *mesh.face_attributes.values()]
+    owners = [mesh.vertex_attributes, mesh.face_attributes, mesh.corner_attributes]
+    for element in mesh.elements.values():
+        owners += [element.attributes, element.corner_attributes]
+        raw += element.corners.nbytes
+    carried = [values for owner in owners for values in owner.values()]
     assert found.raw_bytes == raw + sum(values.nbytes for values in carried)
     assert found.ratio == found.raw_bytes / len(data)
 

@@ -139,5 +139,6 @@ def with_header(data: bytes, **changes: int) -> bytes:
 
 def attribute(name: bytes, kind: bytes, itemsize: int, shape: list[int], data: bytes) -> bytes:
     """The payload of an attribute chunk."""
-    head = varint(len(name)) + name + kind + bytes([itemsize, len(shape)])
-    return head + b"".join(map(varint, shape)) + varint(0) + data
+    head = varint(1) + varint(len(name)) + name + kind + bytes([itemsize, len(shape)])
+    plan = bytes([0, 0, 0, 0, 0, 0])  # exact numbers without guess, relation, specials, labels
+    return head + b"".join(map(varint, shape)) + plan + varint(0) + data

@@ -1,0 +1,28 @@
+"""Integers of which few occur -> which of them, in ascending order."""
+
+import numpy as np
+
+from ebz.codec.attributes.plan import Plan
+from ebz.codec.errors import CorruptError
+from ebz.codec.integers import decode_columns, encode_columns, unzigzag, zigzag
+from ebz.codec.lattice import Integers
+
+MAX_LABELS = 1 << 16
+
+
+def encode(integers: Integers) -> tuple[int, bytes, Integers] | None:
+    """How many labels there are, their stream, and which is where; None if there are many."""
+    found, which = np.unique(integers, return_inverse=True)
+    if len(found) > min(MAX_LABELS, 8 + integers.size // 3):
+        return None
+    stream = encode_columns(zigzag(np.diff(found, prepend=0)))
+    return len(found), stream, which.reshape(integers.shape).astype(np.int64)
+
+
+def decode(which: Integers, plan: Plan) -> Integers:
+    """The integers; raises CorruptError where there is no such label."""
+    (steps,) = decode_columns(plan.labels, plan.n_labels, 1)
+    if which.size and (which.min() < 0 or which.max() >= plan.n_labels):
+        raise CorruptError(f"a label beyond the {plan.n_labels} that there are")
+    labels: Integers = np.cumsum(unzigzag(steps))
+    return labels[which]

@@ -1,0 +1,54 @@
+// Entropy coder for attributes: rows of integers, one per item of a surface or of a list.
+//
+// References: as in positions.hpp; S. Haykin, "Adaptive filter theory" (recursive least squares).  Each
+// component is expected near several candidates (neighbours, parallelograms, what geometry says, what the
+// components before tell); every binary decision mixes distributions around them, counted contexts, and
+// how often each candidate is exactly right.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "spaces.hpp"
+
+namespace ebz::attributes {
+
+enum class Method : uint8_t {
+    numbers,  // differences to a prediction
+    symbols,  // labels and ids below 2^16: bits in contexts of values
+};
+
+// What components have to do with each other.
+enum class Relation : uint8_t {
+    none,
+    unit,  // three components: the sum of squares is total^2
+    sum,   // the sum is total
+};
+
+// What both sides know.  With `item` (of each corner), items lie on a surface; else with `opposite` they
+// are its faces; else rows.
+struct Items {
+    std::span<const int32_t> opposite, item;
+    int32_t n;
+    size_t n_components;
+    std::span<const double> points;   // 3 per item, or none: where it is
+    std::span<const int32_t> site;    // per item, or none: items of one site are at one place
+    std::span<const int64_t> guess;   // n_components per item, or none
+};
+
+struct Coding {
+    Method method;
+    Space space;
+    Relation relation;
+    double total;
+};
+
+// values: n_components per item; of symbols 0 to 2^16 - 1.
+std::vector<uint8_t> encode(const Items& items, const Coding& coding, std::span<const int64_t> values);
+
+// Fills values with what was encoded alike.  Any bytes decode to some values.
+void decode(std::span<const uint8_t> bytes, const Items& items, const Coding& coding, std::span<int64_t> values);
+
+}  // namespace ebz::attributes
