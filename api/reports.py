@@ -5,6 +5,7 @@ import math
 from ebz.codec import pipeline, scene_statistics, scenes, statistics
 from ebz.codec.attributes.comparison import lattices_of
 from ebz.codec.compare import Verification
+from ebz.codec.compare_metadata import with_metadata
 from ebz.codec.compare_scenes import compare_parts, summary
 from ebz.codec.connectivity import WordModel
 from ebz.codec.encoded import EncodedMesh
@@ -78,7 +79,7 @@ def verify(
     parts = [encoded] if isinstance(encoded, EncodedMesh) else encoded.parts
     keeps_order = any(part.streams.order.vertices is not None for part in parts)
     lattices = [part.lattice for part in parts]
-    return compare_parts(
+    verdict = compare_parts(
         content,
         against,
         lattices,
@@ -86,3 +87,4 @@ def verify(
         attributes=[lattices_of(part) for part in parts],
         keeps_order=keeps_order,
     )
+    return with_metadata(verdict, content, against)

@@ -73,14 +73,13 @@ def read_obj(data: bytes) -> Mesh:
     face = elements.pop("face")
     flavour |= names
     runs = count_runs(face.attributes, len(face))
-    if runs:
-        flavour[RUNS] = runs
+    metadata = {"format": "obj", "obj": flavour, RUNS: runs}
     return Mesh(
         vertices,
         face.corners,
         by_vertex,
         face.attributes,
-        {"format": "obj", "obj": flavour} if flavour else {"format": "obj"},
+        {name: value for name, value in metadata.items() if value},
         face.offsets,
         face.corner_attributes,
         {name: element for name, element in elements.items() if len(element)} | unused,

@@ -2,8 +2,9 @@
 
 Faces that compressing has shuffled would need a statement at nearly every face.  So rows are sorted
 by what is in force for them, stably, unless the file that they are from was not sorted and their
-order is still that of the file: metadata["obj"] then says how many runs it had.  What stands before
-the first statement of a keyword can only be written there, so rows with less in force come first.
+order is still that of the file: metadata["runs"] then says how many runs it had.  What stands
+before the first statement of a keyword can only be written there, so rows with less in force come
+first.
 """
 
 from collections.abc import Mapping

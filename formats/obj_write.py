@@ -87,7 +87,7 @@ def _body(mesh: Mesh, flavour: dict[str, Any]) -> tuple[list[str], dict[str, npt
     rows = stacked([*parts.values()], [*left_corners.values()])
     for name in parts:
         warn_attributes("OBJ", **{name: left[name], f"{name} corner": left_corners[name]})
-    order = order_of_rows(matrix, rows.kinds, flavour.get(RUNS))
+    order = order_of_rows(matrix, rows.kinds, mesh.metadata.get(RUNS))
     rows = rows.take(order)
     tables, indices = {}, {}
     for keyword in TABLES:

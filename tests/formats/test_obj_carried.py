@@ -120,9 +120,9 @@ SORTED = f"{SQUARE}usemtl a\nf 1 2 3\nf 3 4 1\nusemtl b\nf 2 3 4\n"
 
 def test_a_file_in_turns_stays_so_as_long_as_its_order_is_kept() -> None:
     mesh = obj(IN_TURN)
-    assert mesh.metadata["obj"]["runs"] == 3
+    assert mesh.metadata["runs"] == 3
     assert write_mesh(mesh, "obj").decode() == IN_TURN
-    assert "runs" not in obj(SORTED).metadata["obj"]
+    assert "runs" not in obj(SORTED).metadata
 
 
 def test_faces_in_another_order_are_sorted_by_what_is_in_force() -> None:
@@ -161,9 +161,9 @@ def test_numbers_without_names_are_names() -> None:
 
 
 def test_metadata_of_another_kind_does_no_harm() -> None:
-    flavour = {"groups": "x", "mtllibs": [3, "a\nb"], "runs": "many", "comments": {}}
+    flavour = {"groups": "x", "mtllibs": [3, "a\nb"], "comments": {}}
     mesh = Mesh(np.eye(3), [[0, 1, 2]], face_attributes={"group": np.array([0])})
-    mesh.metadata["obj"] = flavour
+    mesh.metadata |= {"obj": flavour, "runs": "many"}
     again = read_mesh(write_mesh(mesh, "obj"))
     assert again.metadata["obj"] == {"groups": ["0"], "mtllibs": ["3", "a b"]}
 
