@@ -31,7 +31,9 @@ def digest(mesh: Mesh) -> bytes:
         _add(state, f"corners of {name}", element.corners)
         _add_all(state, name, element.attributes)
         _add_all(state, f"{name} corner", element.corner_attributes)
-    state.update(metadata.to_text(mesh.metadata) if mesh.metadata else b"")
+    if mesh.metadata:
+        for part in metadata.to_text(mesh.metadata):
+            state.update(part)
     return bytes(state.digest())
 
 

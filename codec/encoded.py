@@ -44,10 +44,11 @@ class EncodedArray:
 
 @dataclass(frozen=True)
 class EncodedText:
-    """Text of `n_bytes`, which `data` codes."""
+    """Text of `n_bytes`, which `data` codes, and byte strings that it stands for as they are."""
 
     n_bytes: int
     data: bytes
+    raw: bytes = b""
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> list[bytes]:
         parts += [chunks.write(kind, records.attribute(array)) for array in arrays]
     parts += [chunks.write(layout.ELEMENT, records.element(rows)) for rows in encoded.elements]
     if encoded.metadata:
-        text = layout.build(layout.Text, vars(encoded.metadata))
+        text = layout.build(layout.Text, records.text(encoded.metadata))
         parts.append(chunks.write(layout.METADATA, text))
     return [*parts, chunks.write(layout.END, encoded.digest)]
 
@@ -177,7 +177,7 @@ def _text(chunk: Chunk | None) -> EncodedText | None:
         return None
     with corrupt_at(chunk.where):
         parsed = layout.parse(layout.Text, chunk.payload)
-    return EncodedText(parsed.n_bytes, parsed.data)
+    return records.parse_text(parsed)
 
 
 def _header(encoded: EncodedMesh, model: int) -> bytes:

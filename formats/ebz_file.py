@@ -1,10 +1,10 @@
 """The .ebz file: one mesh, or a scene of several, from its first byte to its last."""
 
-from ebz.codec.encoded import EncodedMesh, EncodedText
+from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import corrupt_at
 from ebz.codec.scene import in_part
 from ebz.codec.scenes import Encoded, EncodedScene
-from ebz.formats import chunks, container, layout
+from ebz.formats import chunks, container, layout, records
 from ebz.formats.chunks import Chunk
 from ebz.formats.limits import check_memory, check_text, declared_size, scene_size
 
@@ -13,8 +13,8 @@ def write(encoded: Encoded, *, embed_model: bool = False) -> bytes:
     """The file; embed_model: store the tables of models that are built in, too."""
     if isinstance(encoded, EncodedMesh):
         return b"".join([chunks.start(), *container.write(encoded, embed_model=embed_model)])
-    text = vars(encoded.metadata) if encoded.metadata else {"n_bytes": 0, "data": b""}
-    payload = layout.build(layout.Scene, {"n_parts": len(encoded.parts), "text": text})
+    head = {"n_parts": len(encoded.parts), "text": records.text(encoded.metadata)}
+    payload = layout.build(layout.Scene, head)
     parts = [chunks.start(), chunks.write(layout.SCENE, payload)]
     for part in encoded.parts:
         parts += container.write(part, embed_model=embed_model)
@@ -39,7 +39,7 @@ def read(data: memoryview, *, memory_limit: int) -> Encoded:
 def _read_scene(data: memoryview, chunk: Chunk, memory_limit: int) -> EncodedScene:
     with corrupt_at(chunk.where):
         head = layout.parse(layout.Scene, chunk.payload)
-        text = EncodedText(head.text.n_bytes, head.text.data) if head.text.n_bytes else None
+        text = records.parse_text(head.text) if head.text.size else None
         check_text(text)
     parts: list[EncodedMesh] = []
     end = chunk.offset + chunk.size

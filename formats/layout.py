@@ -7,6 +7,7 @@ from construct import (
     Byte,
     Bytes,
     Check,
+    Computed,
     Construct,
     ConstructError,
     Enum,
@@ -235,7 +236,12 @@ Element = Struct(
 )
 
 
-Text = Struct("n_bytes" / VarInt, "data" / GreedyBytes)
+# size: 2 n_bytes, or one more where raw bytes stand beside the text.
+Text = Struct(
+    "size" / VarInt,
+    "raw" / IfThenElse(this.size & 1 == 1, Prefixed(VarInt, GreedyBytes), Computed(b"")),
+    "data" / GreedyBytes,
+)
 Scene = Struct("n_parts" / VarInt, "text" / Text)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ebz.codec.arrays import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
-from ebz.codec.encoded import EncodedArray, EncodedElement
+from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedText
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.formats import layout, plans
 from ebz.formats.chunks import Chunk
@@ -131,3 +131,15 @@ def _parse_dtype(parsed: Any) -> np.dtype[Any]:
     except TypeError:
         pass
     raise CorruptError(f"an attribute of type {kind!r} with {parsed.itemsize} bytes")
+
+
+def text(encoded: EncodedText | None) -> dict[str, Any]:
+    """The values of layout.Text."""
+    encoded = encoded or EncodedText(0, b"")
+    size = 2 * encoded.n_bytes + (encoded.raw != b"")
+    return {"size": size, "raw": encoded.raw, "data": encoded.data}
+
+
+def parse_text(parsed: Any) -> EncodedText:
+    """The text that layout.Text declares."""
+    return EncodedText(parsed.size >> 1, parsed.data, parsed.raw)

@@ -20,6 +20,7 @@ scalars = (
     | st.floats(allow_nan=False)
     | strings
     | st.binary()
+    | st.integers(200, 300).map(bytes)
 )
 values = st.recursive(
     scalars,
@@ -87,6 +88,8 @@ def test_what_cannot_be_kept_is_refused(meta, message):
         b"\xff\xfe",
         b'{"a":{"$bytes":5}}',
         b'{"a":{"$bytes":"0g"}}',
+        b'{"a":{"$bytes":true}}',
+        b'{"a":{"$bytes":1.0}}',
         b'{"$bytes":"00"}',
         b'{"a":{"$bytes":"00","b":1}}',
         b'{"a":' + b"[" * 100_000 + b"]" * 100_000 + b"}",
@@ -97,3 +100,26 @@ def test_what_cannot_be_kept_is_refused(meta, message):
 def test_other_bytes_are_corrupt(data):
     with pytest.raises(ebz.CorruptError):
         metadata.from_text(data)
+
+
+def test_long_byte_strings_stand_beside_the_text():
+    meta = {"a": bytes(300), "b": [{"c": bytes(range(256))}, b"short"]}
+    encoded = metadata.encode(meta)
+    assert encoded.raw == bytes(300) + bytes(range(256))
+    assert metadata.decode(encoded) == meta
+    mesh = ebz.Mesh([], [], metadata=meta)
+    assert ebz.decompress(ebz.compress(mesh)).metadata == meta
+
+
+@pytest.mark.parametrize(
+    ("text", "raw"),
+    [
+        (b'{"a":{"$bytes":5}}', bytes(4)),
+        (b'{"a":{"$bytes":5}}', bytes(6)),
+        (b'{"a":{"$bytes":-1}}', b""),
+        (b'{"a":1}', bytes(1)),
+    ],
+)
+def test_other_numbers_of_raw_bytes_are_corrupt(text, raw):
+    with pytest.raises(ebz.CorruptError):
+        metadata.from_text(text, raw)
