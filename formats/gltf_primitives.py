@@ -3,7 +3,7 @@
 Source: The Khronos Group, glTF 2.0 Specification, section 3.7.
 """
 
-from collections import Counter
+from collections import Counter, defaultdict
 from typing import Any
 
 import numpy as np
@@ -30,26 +30,25 @@ def read_primitives(document: Any, body: bytes | bytearray) -> list[Mesh]:
         for primitive in mesh["primitives"]
     ]
     uses = Counter(primitive["attributes"].get("POSITION") for _, _, primitive in found)
-    parts, n_bytes, dropped = [], 0, 0
+    parts, n_bytes = [], 0
+    used: defaultdict[int, list[Array]] = defaultdict(list)
     for number, mesh, primitive in found:
-        shared = uses[primitive["attributes"].get("POSITION")] > 1
         part = _read_primitive(document, body, number, mesh, primitive)
         n_bytes += part.vertices.nbytes + part.corners.nbytes
         if n_bytes > MAX_REPEATED * len(body) + (1 << 20):
             raise MeshError("glTF: its primitives repeat too much of its buffers")
-        parts.append(_used_part(part) if shared else part)
-    for position, n in uses.items():
-        if n > 1:
-            own = [
-                p
-                for p, (_, _, q) in zip(parts, found, strict=True)
-                if q["attributes"]["POSITION"] == position
-            ]
-            dropped += max(
-                0, document["accessors"][position]["count"] - sum(p.n_vertices for p in own)
-            )
-    if dropped:
-        warn_dropped(f"glTF: vertices of shared buffers that no primitive uses ({dropped})")
+        position = primitive["attributes"]["POSITION"]
+        if uses[position] > 1:
+            rows = _used(part)
+            used[position].append(rows)
+            part = _taken(part, rows)
+        parts.append(part)
+    unused = [
+        document["accessors"][position]["count"] - len(np.unique(np.concatenate(rows)))
+        for position, rows in used.items()
+    ]
+    if any(unused):
+        warn_dropped(f"glTF: vertices of shared buffers that no primitive uses ({sum(unused)})")
     return parts
 
 
@@ -134,10 +133,14 @@ def _rows(corners: Array, mode: int, place: str) -> tuple[str, Element]:
     return "line", Element(np.array([0, len(corners)]), corners)
 
 
-def _used_part(part: Mesh) -> Mesh:
-    """The part with the vertices that it uses alone."""
+def _used(part: Mesh) -> Array:
+    """The vertices that a part uses: all, where it is a cloud of points."""
     rows = [part.corners, *(element.corners for element in part.elements.values())]
-    used = np.unique(np.concatenate(rows)) if sum(map(len, rows)) else np.arange(part.n_vertices)
+    return np.unique(np.concatenate(rows)) if any(map(len, rows)) else np.arange(part.n_vertices)
+
+
+def _taken(part: Mesh, used: Array) -> Mesh:
+    """The part with these of its vertices alone."""
     number = np.zeros(part.n_vertices, np.int64)
     number[used] = np.arange(len(used))
     return Mesh(
