@@ -17,6 +17,7 @@ from ebz.formats.gltf_document import Builder, remove_extension, without_geometr
 from ebz.formats.gltf_json import joined_buffers, make_glb, parse_json, split_glb
 from ebz.formats.gltf_parts import write_primitives
 from ebz.formats.gltf_primitives import COMPRESSED, PRIMITIVE, read_primitives
+from ebz.formats.polygons import triangulated
 
 DOCUMENT = "gltf"
 
@@ -76,7 +77,7 @@ def _write(content: Mesh | Scene) -> tuple[dict[str, Any], bytes]:
     meshes = builder.document.setdefault("meshes", [])
     for mesh in meshes:
         mesh["primitives"] = []
-    for part in parts:
+    for part in (triangulated(part, "gltf") for part in parts):
         primitives = list(write_primitives(part, builder))
         place = part.metadata.get(PRIMITIVE, {}).get("mesh")
         if place is not None and place < len(meshes):

@@ -26,8 +26,6 @@ def join(scene: Scene, format: str) -> Mesh:
     """
     parts = scene.parts
     warn_dropped(f"{format.upper()} holds one mesh: the {len(parts)} parts are joined")
-    if "gltf" in scene.metadata:
-        warn_dropped(f"{format.upper()} cannot carry the nodes, materials and images of glTF")
     starts = np.cumsum([0, *(part.n_vertices for part in parts)])
     corners = [part.corners + start for part, start in zip(parts, starts, strict=False)]
     offsets = _joined_offsets([part.offsets for part in parts])

@@ -4,15 +4,12 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-import numpy as np
-
 from ebz.codec.errors import OptionError
 from ebz.codec.mesh import Mesh
 from ebz.codec.scene import Scene
 from ebz.formats.detect import FORMATS, format_of, format_of_suffix, suffix_of
-from ebz.formats.dropped import warn_dropped
 from ebz.formats.joined import join
-from ebz.formats.polygons import fanned
+from ebz.formats.polygons import fanned, triangulated
 
 __all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"]
 
@@ -27,7 +24,6 @@ MODULES = {
     "glb": ("gltf", "gltf"),
 }
 SCENES = ("gltf", "glb")
-TRIANGLES_ONLY = ("stl", "gltf", "glb")
 
 
 def read_mesh(
@@ -60,15 +56,15 @@ def write_mesh(mesh: Mesh | Scene, format: str) -> bytes:
 
     Warns (DroppedWarning) of what the format cannot carry. Raises MeshError, OptionError.
     """
+    if format in SCENES:
+        return _writer(format)(mesh)
+    if "gltf" in mesh.metadata:
+        from ebz.formats.gltf_nodes import placed
+
+        mesh = placed(mesh, format)
     if isinstance(mesh, Scene):
-        if format in SCENES:
-            return _writer(format)(mesh)
         mesh = join(mesh, format)
-    if format in TRIANGLES_ONLY and not mesh.is_triangles:
-        n_polygons = int(np.count_nonzero(np.diff(mesh.offsets) != 3))
-        warn_dropped(f"{format.upper()} holds triangles only: {n_polygons} polygons are cut up")
-        mesh = fanned(mesh)
-    return _writer(format)(mesh)
+    return _writer(format)(triangulated(mesh, format) if format == "stl" else mesh)
 
 
 def _reader(format: str) -> Callable[[bytes], Mesh | Scene]:

@@ -35,6 +35,15 @@ def check_indices(
     raise MeshError(f"{place(row)} refers to vertex {corners[at]}, but {there} {n_vertices}")
 
 
+def triangulated(mesh: Mesh, format: str) -> Mesh:
+    """The mesh for a format of triangles alone; warns of what is cut up."""
+    n_polygons = int(np.count_nonzero(np.diff(mesh.offsets) != 3))
+    if not n_polygons:
+        return mesh
+    warn_dropped(f"{format.upper()} holds triangles only: {n_polygons} polygons are cut up")
+    return fanned(mesh)
+
+
 def fanned(mesh: Mesh) -> Mesh:
     """The mesh with each polygon (0, 1, ..., k - 1) cut into (0, 1, 2), (0, 2, 3), ...
 

@@ -383,3 +383,49 @@ def test_scenes_of_other_origin_are_written_too() -> None:
     assert document["nodes"] == [{"mesh": 0}, {"mesh": 1}]
     empty = read_mesh(write_mesh(Scene([]), "glb"))
     assert empty.parts == []
+
+
+def test_formats_of_one_mesh_get_what_the_nodes_show() -> None:
+    with pytest.warns(DroppedWarning) as warned:
+        data = write_mesh(read_mesh(scene_of_two().glb()), "ply")
+    assert [str(warning.message) for warning in warned] == [
+        "PLY cannot carry materials (2) of glTF",
+        "PLY holds one mesh: the 5 parts are joined",
+    ]
+    mesh = read_mesh(data)
+    assert mesh.face_attributes["object"].tolist() == [0, 1, 2, 3, 4]
+    first, moved = POSITIONS[:3], np.array([5, 0, 0], np.float32)
+    found = mesh.vertices[mesh.faces].tolist()
+    second, third = POSITIONS[2:] + 1, POSITIONS[:3] + 9
+    expected = [first, second, first + moved, second + moved, third]
+    assert found == [corners.tolist() for corners in expected]
+
+
+def test_nodes_turn_scale_and_mirror() -> None:
+    half = float(np.sqrt(0.5))
+    nodes = [
+        {"children": [1], "scale": [-2, 2, 2]},
+        {"mesh": 0, "rotation": [0, 0, half, half], "translation": [0, 0, 3]},
+    ]
+    document = triangle(nodes=nodes)
+    normals = document.accessor(np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1]], "f4"))
+    document.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normals
+    mesh = read_mesh(write_mesh(read_mesh(document.glb()), "ply"))
+    # A quarter turn about z, then mirrored in x: (x, y, z) becomes (2 y, 2 x, 2 z + 6).
+    expected = POSITIONS[:3][:, [1, 0, 2]] * 2 + np.array([0, 0, 6], np.float32)
+    assert np.allclose(mesh.vertices, expected, atol=1e-6)
+    assert mesh.faces.tolist() == [[0, 2, 1]]
+    turned = np.abs(mesh.vertex_attributes["NORMAL"])
+    assert np.allclose(turned, [[0, 1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-6)
+
+
+def test_nodes_that_are_no_tree_are_refused() -> None:
+    mesh = read_mesh(changed(nodes=[{"children": [0], "mesh": 0}]))
+    with pytest.raises(MeshError, match="the nodes of the scene are no tree"):
+        write_mesh(mesh, "ply")
+
+
+def test_polygons_are_cut_up() -> None:
+    with pytest.warns(DroppedWarning, match="GLTF holds triangles only: 1 polygons are cut up"):
+        data = write_mesh(Mesh(POSITIONS, [[0, 1, 2, 3]]), "glb")
+    assert read_mesh(data).faces.tolist() == [[0, 1, 2], [0, 2, 3]]
