@@ -46,12 +46,16 @@ def count_runs(face_attributes: Attributes, n: int) -> int:
 
 
 def order_of_rows(matrix: Matrix, kinds: npt.NDArray[np.int8], runs: Any) -> npt.NDArray[np.intp]:
-    """The rows in the order to write them; faces are of kind 0, which `runs` is about."""
-    order = _sorted(matrix, kinds)
+    """The rows in the order to write them; faces are of kind 0, which `runs` is about.
+
+    Where faces are in no more runs than in their file, only what is missing moves them: nothing
+    does, for a file has the faces before a statement first.
+    """
     n_faces = int(np.count_nonzero(kinds == 0))
     if isinstance(runs, int) and _runs(matrix[:n_faces]) <= runs:
-        order = np.concatenate([np.arange(n_faces), order[order >= n_faces]])
-    return order
+        matrix = matrix.copy()
+        matrix[:n_faces] = np.where(matrix[:n_faces] == NONE, NONE, 0)
+    return _sorted(matrix, kinds)
 
 
 def _sorted(matrix: Matrix, kinds: npt.NDArray[np.int8]) -> npt.NDArray[np.intp]:

@@ -125,6 +125,11 @@ def test_a_file_in_turns_stays_so_as_long_as_its_order_is_kept() -> None:
     assert "runs" not in obj(SORTED).metadata
 
 
+def test_in_turns_what_stands_before_a_statement_stays_there() -> None:
+    text = f"{SQUARE}p 1\n" + IN_TURN.removeprefix(SQUARE) + "l 1 2\n"
+    assert write_mesh(obj(text), "obj").decode() == text
+
+
 def test_faces_in_another_order_are_sorted_by_what_is_in_force() -> None:
     text = SQUARE + "f 4 3 2\ng x\n" + "f 1 2 3\n" * 3 + "g y\n" + "f 2 3 4\n" * 3
     mesh = obj(text)
