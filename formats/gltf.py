@@ -104,9 +104,12 @@ def _remove_empty(document: dict[str, Any]) -> None:
     left = [bool(mesh["primitives"]) for mesh in document["meshes"]]
     number = [sum(left[:i]) for i in range(len(left))]
     for node in document.get("nodes", []):
-        mesh = node.pop("mesh", None)
-        if mesh is not None and left[mesh]:
-            node["mesh"] = number[mesh]
+        if "mesh" not in node:
+            continue
+        if left[node["mesh"]]:
+            node["mesh"] = number[node["mesh"]]
+        else:
+            del node["mesh"]
     document["meshes"] = [mesh for mesh in document["meshes"] if mesh["primitives"]]
     if not document["meshes"]:
         del document["meshes"]

@@ -28,8 +28,7 @@ GENERATOR = {"version": "2.0", "generator": "ebz"}
 def without_geometry(document: Any, body: bytes) -> dict[str, Any]:
     """{"document": the JSON that is kept, "binary": the bytes that it refers to}."""
     geometry = set(_geometry_accessors(document))
-    kept = {key: value for key, value in document.items() if key != "buffers"}
-    kept = copy.deepcopy(kept)
+    kept = {key: copy.deepcopy(value) for key, value in document.items() if key != "buffers"}
     for mesh in kept.get("meshes", []):
         del mesh["primitives"]
     accessors = kept.get("accessors", [])
@@ -45,9 +44,12 @@ def without_geometry(document: Any, body: bytes) -> dict[str, Any]:
         kept["bufferViews"].append(
             view | {"byteOffset": append(binary, body[begin : begin + view["byteLength"]])}
         )
-    empty = [key for key in ("accessors", "bufferViews") if not any(kept[key])]
-    for key in empty:
-        del kept[key]
+    for key in ("accessors", "bufferViews"):
+        while kept[key] and kept[key][-1] is None:
+            kept[key].pop()
+        if not kept[key]:
+            del kept[key]
+    kept = dict(sorted(kept.items()))  # so that what is written and read again is the same
     return {"document": kept} | ({"binary": bytes(binary)} if binary else {})
 
 

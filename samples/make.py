@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ebz.codec import sample
 from samples import surfaces, texts
-from samples.writers import ascii_stl, binary_stl, obj, off, ply
+from samples.writers import ascii_stl, binary_stl, glb, obj, off, ply
 
 Array = npt.NDArray[Any]
 
@@ -25,7 +25,7 @@ POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0.25), (0, -1, 0.5
 
 def main() -> None:
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
-    for name, data in (tiny() | smooth() | singular() | carried() | flavours()).items():
+    for name, data in (tiny() | smooth() | singular() | carried() | flavours() | scenes()).items():
         (folder / name).write_bytes(data)
 
 
@@ -195,6 +195,46 @@ def _box_with_holes() -> Array:
     box[1:3, 1:3, :] = box[4:8, 2:5, :] = False
     box[1:3, 4:6, 2:] = box[:, 3, 1:3] = False
     return box
+
+
+def scenes() -> dict[str, bytes]:
+    """Several meshes in one file."""
+    ball, box = sample.sphere(320), surfaces.voxels(_box_with_holes())
+    box_vertices, box_faces = np.asarray(box[0], np.float32), np.asarray(box[1], np.uint16)
+    half = len(box_faces) // 2
+    outline = np.array([0, 1, 1, 2, 2, 0], np.uint16)
+    position, normal, index = "POSITION", "NORMAL", "indices"
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [
+            {"name": "root", "children": [1, 2, 3], "scale": [2, 2, 2]},
+            {"mesh": 0, "translation": [0, 3, 0]},
+            {"mesh": 0, "translation": [0, -3, 0], "extras": {"copy": True}},
+            {"mesh": 1},
+        ],
+        "materials": [{"name": "red"}, {"name": "blue"}],
+        "meshes": [
+            {"name": "ball", "primitives": [{"attributes": {position: 0, normal: 1}, index: 2}]},
+            {
+                "name": "box",
+                "extras": {"holes": 2},
+                "primitives": [
+                    {"attributes": {position: 3}, index: 4, "material": 0},
+                    {"attributes": {position: 3}, index: 5, "material": 1},
+                    {"attributes": {position: 6, "COLOR_0": 7}, "mode": 0},
+                    {"attributes": {position: 6}, index: 8, "mode": 1},
+                ],
+            },
+        ],
+    }
+    arrays = [
+        *[ball.vertices, ball.vertices, ball.faces.astype(np.uint16).ravel()],
+        *[box_vertices, box_faces[:half].ravel(), box_faces[half:].ravel()],
+        *[box_vertices[:3] + 1, np.eye(3, 4, dtype=np.float32), outline],
+    ]
+    return {"scene.glb": glb(document, arrays)}
 
 
 if __name__ == "__main__":

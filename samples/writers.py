@@ -1,5 +1,6 @@
 """Mesh files in every flavour, so that ebz's readers meet files that ebz did not write."""
 
+import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -73,6 +74,27 @@ def ascii_stl(vertices: npt.ArrayLike, faces: npt.ArrayLike, name: str) -> bytes
         lines += ["  endloop", "endfacet"]
     lines += [f"endsolid {name}"]
     return "".join(f"{line}\n" for line in lines).encode()
+
+
+def glb(document: dict[str, Any], arrays: Sequence[Array]) -> bytes:
+    """The document with an accessor for each array, one after another in the buffer."""
+    kinds = {"f4": 5126, "u2": 5123, "u1": 5121}
+    body, accessors, views = b"", [], []
+    for array in arrays:
+        data = np.ascontiguousarray(array).tobytes()
+        views.append({"buffer": 0, "byteOffset": len(body), "byteLength": len(data)})
+        shape = "SCALAR" if array.ndim == 1 else f"VEC{array.shape[1]}"
+        entry = {"bufferView": len(accessors), "componentType": kinds[array.dtype.str[1:]]}
+        accessors.append(entry | {"count": len(array), "type": shape})
+        body += data + bytes(-len(data) % 4)
+    document = document | {"accessors": accessors, "bufferViews": views}
+    text = json.dumps(document | {"buffers": [{"byteLength": len(body)}]}).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = b"".join(
+        len(chunk).to_bytes(4, "little") + kind + chunk
+        for kind, chunk in ((b"JSON", text), (b"BIN\0", body))
+    )
+    return b"glTF\2\0\0\0" + (12 + len(chunks)).to_bytes(4, "little") + chunks
 
 
 def _points(vertices: npt.ArrayLike) -> Array:

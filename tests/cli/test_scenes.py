@@ -1,6 +1,8 @@
 """Files of several meshes in the shell."""
 
 import json
+import shutil
+from pathlib import Path
 
 import ebz
 from tests.cli.shell import Result
@@ -19,6 +21,20 @@ def test_scenes_in_pipelines(sh, tmp_path):
     assert b"part 0 'ball': " in result.stdout
     assert result.stdout.endswith(b"\n2\n")
     assert sh("ebz compress -c s.ebz | cmp - s.ebz") == Result(0, b"", b"")
+
+
+def test_glb_comes_back(sh, tmp_path):
+    shutil.copy(Path(__file__).parents[2] / "samples" / "scene.glb", tmp_path / "a.glb")
+    script = """
+        ebz compress --keep-order a.glb && ebz decompress -o b.glb a.glb.ebz &&
+        ebz verify --against a.glb a.glb.ebz > 1 && ebz verify --against b.glb a.glb.ebz > 2 &&
+        ebz compress --keep-order -c b.glb | cmp - a.glb.ebz && ebz compress -o c.ebz a.glb &&
+        ebz decompress c.ebz && ebz verify --against c.glb c.ebz > 3
+    """
+    assert sh(script) == Result(0, b"", b"")
+    result = sh("ebz decompress --to obj -c a.glb.ebz | grep ^o")
+    assert result.stdout == b"o ball\no ball\no box\no box\n"
+    assert b"OBJ holds one mesh: the 6 parts are joined" in result.stderr
 
 
 def test_statistics_of_scenes(sh, tmp_path):

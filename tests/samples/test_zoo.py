@@ -11,7 +11,7 @@ import pytest
 from tests.topology import Topology, topology
 
 SAMPLES = Path(__file__).parents[2] / "samples"
-MESH_SUFFIXES = {".ply", ".obj", ".off", ".stl"}
+MESH_SUFFIXES = {".ply", ".obj", ".off", ".stl", ".glb"}
 
 
 def zoo() -> set[str]:
