@@ -39,8 +39,17 @@ def join(scene: Scene, format: str) -> Mesh:
         face_attributes=faces | {OBJECT: number},
         corner_attributes=_common("corner", [(p.corner_attributes, p.n_corners) for p in parts]),
         elements=_joined_elements(parts, starts),
-        metadata={"obj": {OBJECTS: [name or "" for name in scene.names]}},
+        metadata={"obj": {OBJECTS: _different(scene.names)}},
     )
+
+
+def _different(names: Sequence[str | None]) -> list[str]:
+    """The names, those that are missing or there already with a number behind."""
+    found: list[str] = []
+    for number, name in enumerate(names):
+        own = name or f"part {number}"
+        found.append(own if own not in found else f"{own}.{number}")
+    return found
 
 
 def _joined_offsets(parts: Sequence[Array]) -> Array:

@@ -33,7 +33,8 @@ def test_glb_comes_back(sh, tmp_path):
     """
     assert sh(script) == Result(0, b"", b"")
     result = sh("ebz decompress --to obj -c a.glb.ebz | grep ^o")
-    assert result.stdout == 2 * b"o ball\n" + 4 * b"o box\n"
+    names = dict.fromkeys(result.stdout.decode().splitlines())
+    assert list(names) == ["o ball", "o ball.1", "o box", "o box.3", "o box.4", "o box.5"]
     assert b"OBJ holds one mesh: the 6 parts are joined" in result.stderr
 
 

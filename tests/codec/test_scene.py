@@ -144,7 +144,7 @@ def test_formats_of_one_mesh_join_the_parts(tmp_path):
         ebz.write(tmp_path / "scene.obj", scene())
     joined = ebz.read(tmp_path / "scene.obj")
     assert joined.n_vertices == sum(part.n_vertices for part in scene().parts)
-    assert joined.metadata["obj"]["objects"] == ["ball", "nothing", ""]
+    assert joined.metadata["obj"]["objects"] == ["ball", "nothing", "part 2"]
     assert np.array_equal(
         joined.vertices[joined.faces], scene().parts[0].vertices[scene().parts[0].faces]
     )
