@@ -48,14 +48,13 @@ def count_runs(face_attributes: Attributes, n: int) -> int:
 def order_of_rows(matrix: Matrix, kinds: npt.NDArray[np.int8], runs: Any) -> npt.NDArray[np.intp]:
     """The rows in the order to write them; faces are of kind 0, which `runs` is about.
 
-    Where faces are in no more runs than in their file, only what is missing moves them: nothing
-    does, for a file has the faces before a statement first.
+    Other rows, and faces in no more runs than in their file, are only moved by what is missing for
+    them; of one kind, what comes from a file has rows before a statement first.
     """
-    n_faces = int(np.count_nonzero(kinds == 0))
-    if isinstance(runs, int) and _runs(matrix[:n_faces]) <= runs:
-        matrix = matrix.copy()
-        matrix[:n_faces] = np.where(matrix[:n_faces] == NONE, NONE, 0)
-    return _sorted(matrix, kinds)
+    faces = kinds == 0
+    if isinstance(runs, int) and _runs(matrix[faces]) <= runs:
+        faces = np.zeros_like(faces)
+    return _sorted(np.where(faces[:, None] | (matrix == NONE), matrix, 0), kinds)
 
 
 def _sorted(matrix: Matrix, kinds: npt.NDArray[np.int8]) -> npt.NDArray[np.intp]:
