@@ -44,10 +44,14 @@ class EncodedArray:
 
 @dataclass(frozen=True)
 class EncodedText:
-    """Text of `n_bytes`, which `data` codes, and byte strings that it stands for as they are."""
+    """Text of `n_bytes`, which `data` codes, and byte strings of `n_raw` that it stands for.
+
+    raw: these as they are, or coded where there are fewer bytes of it.
+    """
 
     n_bytes: int
     data: bytes
+    n_raw: int = 0
     raw: bytes = b""
 
 

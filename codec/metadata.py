@@ -13,7 +13,7 @@ from ebz.codec.metadata_prior import PRIOR
 
 # An object with this one key holds a byte string: in hexadecimal, or how long it is.
 BYTES = "$bytes"
-# Byte strings from here on stand behind the text as they are; shorter ones are coded with it.
+# Byte strings from here on stand beside the text; shorter ones are coded with it.
 LEAST_RAW = 256
 
 
@@ -22,7 +22,9 @@ def encode(metadata: dict[str, Any]) -> EncodedText | None:
     if not metadata:
         return None
     text, raw = to_text(metadata)
-    return EncodedText(len(text), _kernels.encode_text(_view(PRIOR), _view(text)), raw)
+    coded = _kernels.encode_text(_view(b""), _view(raw))
+    stream = _kernels.encode_text(_view(PRIOR), _view(text))
+    return EncodedText(len(text), stream, len(raw), min(raw, coded, key=len))
 
 
 def decode(encoded: EncodedText | None) -> dict[str, Any]:
@@ -30,7 +32,10 @@ def decode(encoded: EncodedText | None) -> dict[str, Any]:
     if encoded is None:
         return {}
     text = _kernels.decode_text(_view(PRIOR), _view(encoded.data), encoded.n_bytes).tobytes()
-    return from_text(text, encoded.raw)
+    raw = encoded.raw
+    if len(raw) < encoded.n_raw:
+        raw = _kernels.decode_text(_view(b""), _view(raw), encoded.n_raw).tobytes()
+    return from_text(text, raw)
 
 
 def to_text(metadata: dict[str, Any]) -> tuple[bytes, bytes]:

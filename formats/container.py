@@ -176,8 +176,7 @@ def _text(chunk: Chunk | None) -> EncodedText | None:
     if chunk is None:
         return None
     with corrupt_at(chunk.where):
-        parsed = layout.parse(layout.Text, chunk.payload)
-    return records.parse_text(parsed)
+        return records.parse_text(layout.parse(layout.Text, chunk.payload))
 
 
 def _header(encoded: EncodedMesh, model: int) -> bytes:

@@ -239,6 +239,7 @@ Element = Struct(
 # size: 2 n_bytes, or one more where raw bytes stand beside the text.
 Text = Struct(
     "size" / VarInt,
+    "n_raw" / IfThenElse(this.size & 1 == 1, VarInt, Computed(0)),
     "raw" / IfThenElse(this.size & 1 == 1, Prefixed(VarInt, GreedyBytes), Computed(b"")),
     "data" / GreedyBytes,
 )

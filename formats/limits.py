@@ -44,7 +44,9 @@ def check_text(text: EncodedText | None) -> int:
     if text is None:
         return 0
     _check("characters", text.n_bytes, 8 * CHEAPEST_LEARNT, text.data)
-    return BYTES_PER_CHARACTER * text.n_bytes
+    if text.n_raw > len(text.raw):
+        _check("bytes of byte strings", text.n_raw, 8 * CHEAPEST_LEARNT, text.raw)
+    return BYTES_PER_CHARACTER * text.n_bytes + 4 * text.n_raw
 
 
 def scene_size(scene: EncodedScene) -> int:

@@ -136,10 +136,12 @@ def _parse_dtype(parsed: Any) -> np.dtype[Any]:
 def text(encoded: EncodedText | None) -> dict[str, Any]:
     """The values of layout.Text."""
     encoded = encoded or EncodedText(0, b"")
-    size = 2 * encoded.n_bytes + (encoded.raw != b"")
-    return {"size": size, "raw": encoded.raw, "data": encoded.data}
+    size = 2 * encoded.n_bytes + (encoded.n_raw > 0)
+    return vars(encoded) | {"size": size}
 
 
 def parse_text(parsed: Any) -> EncodedText:
     """The text that layout.Text declares."""
-    return EncodedText(parsed.size >> 1, parsed.data, parsed.raw)
+    if len(parsed.raw) > parsed.n_raw:
+        raise CorruptError(f"{len(parsed.raw)} bytes for {parsed.n_raw}")
+    return EncodedText(parsed.size >> 1, parsed.data, parsed.n_raw, parsed.raw)
