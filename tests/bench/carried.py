@@ -126,8 +126,8 @@ def _draco(mesh: ebz.Mesh, exact: bool) -> int | None:
         quantization_bits=0 if exact else POSITION_BITS,
         compression_level=10,
         colors=colours,
-        tex_coord=uv,
-        normals=normals,
+        tex_coord=None if uv is None else uv.astype(np.float64),  # stored as float32
+        normals=None if normals is None else normals.astype(np.float64),
         tex_coord_quantization_bits=None if exact else UV_BITS,
         normal_quantization_bits=None if exact else NORMAL_BITS,
         generic_attributes=left or None,
