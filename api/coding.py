@@ -52,7 +52,7 @@ def compress(
 
 @overload
 def compress(
-    mesh: Mesh | Scene,
+    mesh: Mesh,
     *,
     bits: int | None = ...,
     max_error: float | None = ...,
@@ -66,7 +66,26 @@ def compress(
     model: str | os.PathLike[str] | AnyTable | None = ...,
     embed_model: bool = ...,
     progress: Progress | None = ...,
-) -> tuple[bytes, Permutation | list[Permutation]]: ...
+) -> tuple[bytes, Permutation]: ...
+
+
+@overload
+def compress(
+    mesh: Scene,
+    *,
+    bits: int | None = ...,
+    max_error: float | None = ...,
+    grid: Grid | None = ...,
+    attribute_bits: Mapping[str, int] | None = ...,
+    attribute_error: Mapping[str, float] | None = ...,
+    normal_bits: int | None = ...,
+    keep_order: bool = ...,
+    return_permutation: Literal[True],
+    level: int = ...,
+    model: str | os.PathLike[str] | AnyTable | None = ...,
+    embed_model: bool = ...,
+    progress: Progress | None = ...,
+) -> tuple[bytes, list[Permutation]]: ...
 
 
 def compress(
