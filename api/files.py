@@ -72,7 +72,8 @@ def _format_for(name: str | None, mesh: Mesh | Scene) -> str:
     suffix = Path(name).suffix.lower() if name else ""
     if suffix == EBZ_SUFFIX:
         return EBZ
-    return meshes.format_of_suffix(suffix) or str(mesh.metadata.get("format", "ply"))
+    default = "glb" if isinstance(mesh, Scene) else "ply"
+    return meshes.format_of_suffix(suffix) or str(mesh.metadata.get("format", default))
 
 
 def _name(path_or_file: PathOrFile) -> str | None:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 # What no text has: the control characters but for tab, line feed and return.
 BINARY_CONTROLS = bytes(code for code in (*range(32), 127) if code not in b"\t\n\r")
-DEFAULT_FORMAT = "ply"
 
 EPILOG = """\b
 Examples:
@@ -102,7 +101,13 @@ def _format_of(mesh: "Mesh | Scene", named: str | None, source_path: str) -> str
     recorded = mesh.metadata.get("format")
     if recorded not in options.FORMATS:
         recorded = _suffix_format(source_path.removesuffix(SUFFIX))
-    return _suffix_format(named or "") or recorded or DEFAULT_FORMAT
+    return _suffix_format(named or "") or recorded or _default_format(mesh)
+
+
+def _default_format(mesh: "Mesh | Scene") -> str:
+    import ebz
+
+    return "glb" if isinstance(mesh, ebz.Scene) else "ply"
 
 
 def _suffix_format(name: str) -> str | None:

@@ -53,3 +53,13 @@ def test_scenes_as_one_mesh(sh, tmp_path):
     n = sum(part.n_vertices for part in scene().parts)
     assert result.stdout.split()[2] == str(n).encode()
     assert b"ebz: warning: s.ebz: PLY holds one mesh: the 3 parts are joined\n" in result.stderr
+
+
+def test_scenes_without_a_format_become_glb(sh, tmp_path):
+    whole = scene()
+    del whole.parts[1]
+    (tmp_path / "s.ebz").write_bytes(ebz.compress(whole))
+    assert sh("ebz decompress s.ebz && ebz verify --against s.glb s.ebz | grep ^equal").stdout == (
+        b"equal             yes\n"
+    )
+    assert ebz.read(tmp_path / "s.glb").names == ["ball", None]
