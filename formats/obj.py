@@ -2,7 +2,8 @@
 
 What the format leaves open, and what is chosen here:
 
-- `v x y z w`: w becomes the vertex attribute `w`; `v x y z r g b`: the attribute `rgb` (n, 3).
+- `v x y z w`: w becomes the vertex attribute `w`; `v x y z r g b`: the attribute `rgb` (n, 3);
+  with a seventh number `rgba` (n, 4).
   Where only some vertices have them, NaN stands for those that have none.
 - Texture coordinates and normals of corners become the corner attributes `uv` and `normal`; NaN
   stands for corners that have none. Those that no corner has are rows of the elements `vt` and

@@ -11,7 +11,7 @@ from ebz.formats.obj_lines import Rows
 from ebz.formats.text_floats import floats_at, wide_if
 
 # What stands behind x, y and z where there are so many numbers in all.
-EXTRA = {4: ("w", 1), 6: ("rgb", 3)}
+EXTRA = {4: ("w", 1), 6: ("rgb", 3), 7: ("rgba", 4)}
 
 
 def read_vertices(rows: Rows, doubles: set[str]) -> tuple[npt.NDArray[Any], Attributes]:
@@ -21,7 +21,7 @@ def read_vertices(rows: Rows, doubles: set[str]) -> tuple[npt.NDArray[Any], Attr
     if bad.any():
         row = int(np.argmax(bad))
         raise MeshError(
-            f"line {rows.numbers[row]}: a vertex has 3, 4 or 6 numbers, not {counts[row]}"
+            f"line {rows.numbers[row]}: a vertex has 3, 4, 6 or 7 numbers, not {counts[row]}"
         )
     first = np.cumsum(counts) - counts
     attributes = {}

@@ -14,6 +14,7 @@ from ebz.formats.numbers import format_numbers
 from ebz.formats.obj_order import RUNS, order_of_rows, statements_between, take_in_force
 from ebz.formats.obj_rows import TABLES, distinct, row_texts, stacked
 from ebz.formats.obj_statements import LIBRARIES, LIBRARY
+from ebz.formats.obj_tables import EXTRA
 from ebz.formats.text_floats import DOUBLE_MARK, EMPTY_MARK, one_line, reads_as_float32
 
 # Elements that have corners, by name; behind the faces, which are the first kind.
@@ -130,7 +131,7 @@ def _table(mesh: Mesh, keyword: str, used: npt.NDArray[Any], left: Attributes) -
 def _extra_words(mesh: Mesh, left: Attributes, marks: list[str]) -> list[str]:
     """What stands behind x, y and z of each vertex; takes what it writes out of `left`."""
     words = [""] * mesh.n_vertices
-    for name, width in (("rgb", 3), ("w", 1)):
+    for name, width in EXTRA.values():
         values = left.get(name)
         if values is None or values.dtype.kind != "f" or values.size != width * len(words):
             continue

@@ -220,3 +220,10 @@ def test_elements_without_a_place_are_named() -> None:
         "OBJ cannot carry elements: 'edge'",
     }
     assert row_set(again, "line") == [([0, 1],)]
+
+
+def test_colours_may_have_an_alpha() -> None:
+    text = "v 0 0 0 0.5 0 1 0.25\nv 1 0 0 1 1 1\n"
+    mesh = obj(text)
+    assert mesh.vertex_attributes["rgba"][0].tolist() == [0.5, 0, 1, 0.25]
+    assert write_mesh(mesh, "obj").decode() == text
