@@ -18,6 +18,7 @@ from ebz.formats.gltf_json import joined_buffers, make_glb, parse_json, split_gl
 from ebz.formats.gltf_parts import write_primitives
 from ebz.formats.gltf_primitives import COMPRESSED, PRIMITIVE, read_primitives
 from ebz.formats.polygons import triangulated
+from ebz.formats.split import split_vertices
 
 DOCUMENT = "gltf"
 
@@ -77,7 +78,7 @@ def _write(content: Mesh | Scene) -> tuple[dict[str, Any], bytes]:
     meshes = builder.document.setdefault("meshes", [])
     for mesh in meshes:
         mesh["primitives"] = []
-    for part in (triangulated(part, "gltf") for part in parts):
+    for part in (split_vertices(triangulated(part, "glTF"), "glTF") for part in parts):
         primitives = list(write_primitives(part, builder))
         place = part.metadata.get(PRIMITIVE, {}).get("mesh")
         if place is not None and place < len(meshes):

@@ -64,7 +64,7 @@ def write_mesh(mesh: Mesh | Scene, format: str) -> bytes:
         mesh = placed(mesh, format)
     if isinstance(mesh, Scene):
         mesh = join(mesh, format)
-    return _writer(format)(triangulated(mesh, format) if format == "stl" else mesh)
+    return _writer(format)(triangulated(mesh, format.upper()) if format == "stl" else mesh)
 
 
 def _reader(format: str) -> Callable[[bytes], Mesh | Scene]:

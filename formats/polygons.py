@@ -40,7 +40,7 @@ def triangulated(mesh: Mesh, format: str) -> Mesh:
     n_polygons = int(np.count_nonzero(np.diff(mesh.offsets) != 3))
     if not n_polygons:
         return mesh
-    warn_dropped(f"{format.upper()} holds triangles only: {n_polygons} polygons are cut up")
+    warn_dropped(f"{format} holds triangles only: {n_polygons} polygons are cut up")
     return fanned(mesh)
 
 

@@ -426,6 +426,31 @@ def test_nodes_that_are_no_tree_are_refused() -> None:
 
 
 def test_polygons_are_cut_up() -> None:
-    with pytest.warns(DroppedWarning, match="GLTF holds triangles only: 1 polygons are cut up"):
+    with pytest.warns(DroppedWarning, match="glTF holds triangles only: 1 polygons are cut up"):
         data = write_mesh(Mesh(POSITIONS, [[0, 1, 2, 3]]), "glb")
     assert read_mesh(data).faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+def test_corners_get_vertices_of_their_own() -> None:
+    uv = np.array([[0, 0], [1, 0], [0, 1], [0, 0], [0, 1], [0.5, 0.5]], np.float32)
+    line = Element(np.array([0, 2]), np.array([2, 4]))
+    mesh = Mesh(
+        POSITIONS,
+        [[0, 1, 2], [0, 2, 3]],
+        {"id": np.arange(5, dtype=np.uint8)},
+        corner_attributes={"uv": uv},
+        elements={"line": line},
+    )
+    scene = read_mesh(write_mesh(mesh, "glb"))  # nothing is split: corners agree
+    assert [part.n_vertices for part in scene.parts] == [3 + 1, 2]
+    mesh.corner_attributes["uv"][4] = 7
+    with pytest.warns(
+        DroppedWarning, match="attributes of vertices only: 1 vertices are split off"
+    ):
+        scene = read_mesh(write_mesh(mesh, "glb"))
+    part = scene.parts[0]
+    assert part.vertex_attributes["_id"][part.faces].tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert np.array_equal(part.vertices[part.faces], POSITIONS[mesh.faces])
+    found = part.vertex_attributes["TEXCOORD_0"][part.faces]
+    assert np.array_equal(found.reshape(-1, 2), mesh.corner_attributes["uv"])
+    assert np.array_equal(scene.parts[1].vertices, POSITIONS[[2, 4]])
