@@ -1,31 +1,18 @@
-"""Meshes -> primitives of glTF: what its attributes can hold, under their names."""
+"""Meshes -> primitives of glTF: those of faces, of lines and of points."""
 
-import re
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from ebz.codec.arrays import Attributes
 from ebz.codec.elements import Element
 from ebz.codec.errors import MeshError
 from ebz.codec.mesh import Mesh
 from ebz.formats.dropped import warn_attributes, warn_dropped
-from ebz.formats.gltf_accessors import COMPONENT_OF, TYPE_OF, Array
+from ebz.formats.gltf_accessors import Array
+from ebz.formats.gltf_attributes import TARGET, as_gltf
 from ebz.formats.gltf_document import Builder
 from ebz.formats.gltf_primitives import LINES, POINTS, PRIMITIVE
-
-STANDARD = re.compile(r"NORMAL|TANGENT|(TEXCOORD|COLOR|JOINTS|WEIGHTS)_\d+|_.*")
-TARGET = re.compile(r"target (\d+)/(.+)")
-# Names of other formats.
-NAMES = {
-    "normal": "NORMAL",
-    "uv": "TEXCOORD_0",
-    "st": "TEXCOORD_0",
-    "rgb": "COLOR_0",
-    "rgba": "COLOR_0",
-}
-EXACT = [np.dtype(name) for name in ("u1", "i1", "u2", "i2", "f4")]
 
 
 def write_primitives(mesh: Mesh, builder: Builder) -> Iterator[dict[str, Any]]:
@@ -77,7 +64,7 @@ def _vertices(mesh: Mesh, kept: dict[str, Any], builder: Builder) -> dict[str, A
         "POSITION": builder.add(positions, normalized="POSITION" in normalized, bounds=True)
     }
     targets: dict[int, dict[str, int]] = {}
-    for name, values in _carried(mesh.vertex_attributes).items():
+    for name, values in as_gltf(mesh.vertex_attributes).items():
         if found := TARGET.fullmatch(name):
             target = targets.setdefault(int(found[1]), {})
             target[found[2]] = builder.add(values, bounds=found[2] == "POSITION")
@@ -97,35 +84,3 @@ def _positions(mesh: Mesh) -> Array:
         bad = int(np.argmin(np.isfinite(single).all(axis=1)))
         raise MeshError(f"vertex {bad}: glTF holds finite coordinates only")
     return single
-
-
-def _carried(attributes: Attributes) -> Attributes:
-    """The attributes under names of glTF, in types of glTF; warns of those that have none."""
-    carried, dropped = {}, {}
-    for name, values in attributes.items():
-        own = NAMES.get(name, name)
-        if not STANDARD.fullmatch(own) and not TARGET.fullmatch(own):
-            own = f"_{own}"
-        exact = _exact(values)
-        if exact is None or own in carried:
-            dropped[name] = values
-        else:
-            carried[own] = exact
-    warn_attributes("glTF", vertex=dropped)
-    return carried
-
-
-def _exact(values: Array) -> Array | None:
-    """The values in a shape and a type that glTF has, where one holds them exactly."""
-    if values.ndim == 2 and values.shape[1] == 1:
-        values = values[:, 0]
-    if values.shape[1:] not in TYPE_OF:
-        return None
-    if values.dtype in COMPONENT_OF and values.dtype != np.uint32:
-        return values
-    for dtype in EXACT:
-        with np.errstate(all="ignore"):
-            cast = values.astype(dtype)
-        if np.array_equal(cast.astype(values.dtype), values, equal_nan=values.dtype.kind == "f"):
-            return cast
-    return None

@@ -454,3 +454,20 @@ def test_corners_get_vertices_of_their_own() -> None:
     found = part.vertex_attributes["TEXCOORD_0"][part.faces]
     assert np.array_equal(found.reshape(-1, 2), mesh.corner_attributes["uv"])
     assert np.array_equal(scene.parts[1].vertices, POSITIONS[[2, 4]])
+
+
+def test_names_of_other_formats_become_those_of_gltf() -> None:
+    columns = {
+        name: np.arange(4, dtype=np.uint8) + i for i, name in enumerate(("red", "green", "blue"))
+    }
+    normals = {name: np.full(4, float(name == "nz")) for name in ("nx", "ny", "nz")}
+    uv = np.linspace(0, 1, 8).reshape(4, 2)
+    attributes = columns | {"confidence": np.ones(4, np.float32)} | normals | {"uv": uv}
+    with pytest.warns(DroppedWarning, match="float64: rounded to float32 are uv"):
+        mesh = read_mesh(write_mesh(Mesh(VERTICES, FACES, attributes), "glb"))
+    found = mesh.vertex_attributes
+    assert list(found) == ["COLOR_0", "_confidence", "NORMAL", "TEXCOORD_0"]
+    assert found["COLOR_0"].tolist() == [[i, i + 1, i + 2] for i in range(4)]
+    assert mesh.metadata["gltf_primitive"]["normalized"] == ["COLOR_0"]
+    assert found["NORMAL"].tolist() == 4 * [[0, 0, 1]]
+    assert np.array_equal(found["TEXCOORD_0"], uv.astype(np.float32))
