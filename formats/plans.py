@@ -41,8 +41,11 @@ def parse(parsed: Any, dtype: np.dtype[Any], n_components: int) -> Plan:
     total = parsed.total or 0.0
     if not math.isfinite(total):
         raise CorruptError(f"components whose total is {total}")
-    if guess == Guess.INVERTED or (guess and n_components != 3):
+    is_guess = Guess.NORMALS in guess and Guess.AREA | Guess.ANGLE not in guess
+    if guess and (n_components != 3 or not is_guess):
         raise CorruptError(f"normals of {n_components} components as guess {guess}")
+    if (relation == Relation.OCTAHEDRAL) != isinstance(lattice, Octahedral):
+        raise CorruptError(f"relation {relation} on a lattice of kind {lattice.kind}")
     if relation == Relation.UNIT and n_components != 3:
         raise CorruptError(f"unit vectors of {n_components} components")
     if method == Method.SYMBOLS and not parsed.n_labels:

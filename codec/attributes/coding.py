@@ -118,9 +118,9 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
     """What both sides tell the kernel."""
     in_floats = isinstance(plan.lattice, BitsLattice) and not plan.n_labels
     space = SPACES[array.dtype.itemsize] if in_floats and array.dtype.itemsize > 2 else 0
-    guess = np.zeros(0, np.int64)
+    guess = np.zeros(0)
     if plan.guess != Guess.NONE and not plan.n_labels:
-        guess = guesses.integers(plan, array.dtype, items)
+        guess = guesses.positions(plan, items)
     points = items.points.reshape(-1) if width == 2 and not plan.n_labels else np.zeros(0)
     return {
         "opposite": items.opposite,

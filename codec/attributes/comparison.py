@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ebz.codec import matching
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import specials
-from ebz.codec.attributes.octahedral import Octahedral, are_unit
+from ebz.codec.attributes.octahedral import Octahedral, have_direction
 from ebz.codec.attributes.plan import Lattice
 from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedArray, EncodedMesh
@@ -137,10 +137,10 @@ def _within(got: npt.NDArray[Any], source: npt.NDArray[Any], lattice: Lattice) -
     same = np.asarray(got == source) | (np.isnan(got) & np.isnan(source))
     ours, theirs = got.astype(np.float64), source.astype(np.float64)
     if isinstance(lattice, Octahedral):
-        unit = are_unit(source)
-        length = np.sqrt((theirs * theirs).sum(axis=1))
-        theirs = np.where(unit[:, None], theirs / length[:, None], theirs)
-        same &= ~unit[:, None]
+        directed = have_direction(source)[:, None]
+        length = np.sqrt((theirs * theirs).sum(axis=1))[:, None]
+        theirs = np.where(directed, theirs / length, theirs)
+        same &= ~directed
     allowed = getattr(lattice, "allowed_error", 0.0) + rounding(got.dtype, theirs)
     return bool((same | (np.abs(ours - theirs) <= allowed)).all())
 

@@ -4,65 +4,76 @@ Reference: N. Max, "Weights for computing vertex normals from facet normals", 19
 Only + - * / and square roots of doubles in a fixed order, so that every machine has the same.
 """
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.attributes.items import Items
 from ebz.codec.attributes.lattices import IntegerLattice
-from ebz.codec.attributes.octahedral import Octahedral
 from ebz.codec.attributes.plan import Guess, Plan, Relation
-from ebz.codec.lattice import Integers
 
 Vectors = npt.NDArray[np.float64]
-MEANS = (Guess.AREA, Guess.ANGLE, Guess.UNIFORM)
+WEIGHTS = (Guess.NONE, Guess.AREA, Guess.ANGLE)
+# Where nothing says that entries are directions, a guess must be this good to be one.
+CONVINCING = 0.3
 # Halvings before the series of the arc tangent: its argument is below 0.2 then.
 HALVINGS, TERMS = 3, 12
 
 
-def best(plan: Plan, values: npt.NDArray[np.generic], items: Items) -> Guess:
-    """The normals nearest to the entries; NONE where they are no directions, or there are none."""
-    is_direction = plan.relation == Relation.UNIT or isinstance(plan.lattice, Octahedral)
-    if not is_direction or not items.has_surface:
+@np.errstate(all="ignore")
+def best(plan: Plan, values: npt.NDArray[Any], items: Items) -> Guess:
+    """The normals nearest to the entries; NONE where there are none, or they are no directions."""
+    if values.shape[1] != 3 or not items.has_surface:
         return Guess.NONE
-    wide = np.nan_to_num(values.astype(np.float64), posinf=0, neginf=0)
-    errors = {}
-    for guess in MEANS if items.is_by_corner else (Guess.UNIFORM,):
-        normals = _normals(guess, items)
-        sides = [np.abs(wide / _scale(plan) - sign * normals).mean() for sign in (1, -1)]
-        errors[guess], errors[Guess(guess + Guess.INVERTED)] = sides
+    is_direction = plan.relation in (Relation.UNIT, Relation.OCTAHEDRAL)
+    wide = np.nan_to_num(values.astype(np.float64), posinf=0, neginf=0) / _scale(plan)
+    errors = {Guess.NONE: np.inf if is_direction else CONVINCING * np.abs(wide).mean()}
+    for weights in WEIGHTS if items.is_by_corner else WEIGHTS[:1]:
+        for length in (Guess.NONE,) if is_direction else (Guess.NONE, Guess.SUM):
+            guess = Guess.NORMALS | weights | length
+            normals = _normals(guess, items)
+            errors[guess] = np.abs(wide - normals).mean()
+            errors[guess | Guess.INVERTED] = np.abs(wide + normals).mean()
     return min(errors, key=lambda guess: errors[guess])
 
 
 @np.errstate(all="ignore")
-def integers(plan: Plan, dtype: np.dtype[np.generic], items: Items) -> Integers:
-    """(n, components) of the guess, on the plan's lattice."""
-    inverted = plan.guess > Guess.INVERTED
-    normals = _normals(Guess(plan.guess - Guess.INVERTED * inverted), items)
-    normals = -normals if inverted else normals
+def positions(plan: Plan, items: Items) -> Vectors:
+    """(n, components) of the guess, between the integers of the plan's lattice."""
+    normals = _normals(plan.guess, items)
+    normals = -normals if Guess.INVERTED in plan.guess else normals
     if isinstance(plan.lattice, IntegerLattice):
-        return np.rint(normals * plan.total).astype(np.int64)
-    return plan.lattice.integers(normals.astype(dtype))
+        return normals * _scale(plan)
+    return plan.lattice.positions(normals)
 
 
 def _scale(plan: Plan) -> float:
-    return plan.total if isinstance(plan.lattice, IntegerLattice) else 1.0
+    is_integer = isinstance(plan.lattice, IntegerLattice) and plan.total
+    return plan.total if is_integer else 1.0
+
+
+def _faces(items: Items) -> Vectors:
+    """(m, 3) the products of edges: normals as long as twice the area."""
+    a, b, c = (items.corner_points[i::3] for i in range(3))
+    return np.cross(b - a, c - a)
 
 
 @np.errstate(all="ignore")
 def _normals(guess: Guess, items: Items) -> Vectors:
-    """(n, 3) unit vectors; zeros where there is no direction."""
-    a, b, c = (items.corner_points[i::3] for i in range(3))
-    faces = np.cross(b - a, c - a)
-    if guess != Guess.AREA:
+    """(n, 3), zeros where there is no direction."""
+    faces = _faces(items)
+    if Guess.AREA not in guess:
         faces = _unit(faces)
     if not items.is_by_corner:
         return faces
     by_corner = np.repeat(faces, 3, axis=0)
-    if guess == Guess.ANGLE:
+    if Guess.ANGLE in guess:
         by_corner *= _angles(items.corner_points)[:, None]
     by_corner = np.where(np.isfinite(by_corner), by_corner, 0.0)
     columns = [np.bincount(items.item, by_corner[:, d], items.n) for d in range(3)]
-    return _unit(np.stack(columns, axis=1))
+    sums = np.stack(columns, axis=1).astype(np.float64)
+    return sums if Guess.SUM in guess else _unit(sums)
 
 
 def _unit(vectors: Vectors) -> Vectors:

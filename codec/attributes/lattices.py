@@ -54,6 +54,9 @@ class BitsLattice:
     def integers(self, values: Values) -> Integers:
         return FloatLattice().integers(values)
 
+    def positions(self, values: Values) -> Values:
+        return values
+
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
         return FloatLattice().coordinates(integers, dtype)
 
@@ -73,6 +76,9 @@ class Decimals:
     def integers(self, values: Values) -> Integers:
         return DecimalLattice(self.digits).integers(values)
 
+    def positions(self, values: Values) -> Values:
+        return values * self.one
+
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
         return DecimalLattice(self.digits).coordinates(integers, dtype)
 
@@ -90,7 +96,10 @@ class Fractions:
         return float(self.divisor)
 
     def integers(self, values: Values) -> Integers:
-        return nearest(values.astype(np.float64) * self.divisor)
+        return nearest(self.positions(values.astype(np.float64)))
+
+    def positions(self, values: Values) -> Values:
+        return values * self.divisor
 
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
         return (integers / self.divisor).astype(dtype)

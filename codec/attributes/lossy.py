@@ -37,8 +37,11 @@ class Box:
         return self.step / 2
 
     def integers(self, values: Values) -> Integers:
-        offsets = values.astype(np.float64) - np.array(self.origin)
-        return nearest(offsets / self.step if self.step else np.zeros_like(offsets))
+        return nearest(self.positions(values.astype(np.float64)))
+
+    def positions(self, values: Values) -> Values:
+        offsets = values - np.array(self.origin)
+        return offsets / self.step if self.step else np.zeros_like(offsets)
 
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
         moved: npt.NDArray[np.float64] = np.array(self.origin) + integers * self.step
@@ -63,7 +66,10 @@ class Step:
         return self.max_error
 
     def integers(self, values: Values) -> Integers:
-        return nearest(values.astype(np.float64) / self.step)
+        return nearest(self.positions(values.astype(np.float64)))
+
+    def positions(self, values: Values) -> Values:
+        return values / self.step
 
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
         return to_dtype((integers * self.step).astype(np.float64), dtype)
@@ -95,6 +101,9 @@ class Shares:
         sums = np.cumsum(values.astype(np.float64), axis=1)
         total = np.where(sums[:, -1:] != 0, sums[:, -1:], 1.0)
         return np.diff(nearest(sums / total * self.one), axis=1, prepend=0)
+
+    def positions(self, values: Values) -> Values:
+        return values * self.one
 
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
         return (integers / self.one).astype(dtype)

@@ -14,8 +14,8 @@ import numpy.typing as npt
 from ebz.codec.lattice import Integers
 
 NORMAL_BITS = range(2, 17)
-# Vectors that are shorter or longer than one by more are no unit vectors.
-TOLERANCE = 1e-2
+# Vectors as short or long as these have no direction that doubles can tell.
+SHORTEST, LONGEST = 1e-100, 1e100
 
 
 @dataclass(frozen=True)
@@ -39,15 +39,16 @@ class Octahedral:
 
     def integers(self, vectors: npt.NDArray[Any]) -> Integers:
         """(n, 2) of (n, 3) unit vectors."""
-        once = self._integers(vectors.astype(np.float64))
+        once = self._rounded(vectors.astype(np.float64))
         # Along the folds two points are one vector: the one that this vector has.
-        return self._integers(self._vectors(once).astype(vectors.dtype).astype(np.float64))
+        return self._rounded(self._vectors(once).astype(vectors.dtype).astype(np.float64))
 
     def values(self, integers: Integers, dtype: np.dtype[Any]) -> npt.NDArray[Any]:
         """(n, 3) unit vectors of (n, 2) integers."""
         return self._vectors(integers).astype(dtype)
 
-    def _integers(self, vectors: npt.NDArray[np.float64]) -> Integers:
+    def positions(self, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """(n, 2) of (n, 3) unit vectors, before rounding."""
         x, y, z = vectors.T
         size = np.abs(x) + np.abs(y) + np.abs(z)
         size = np.where(np.isfinite(size) & (size > 0), size, 1.0)
@@ -56,7 +57,11 @@ class Octahedral:
         folded_u = np.where(u >= 0, 1.0, -1.0) * (1 - np.abs(v))
         folded_v = np.where(v >= 0, 1.0, -1.0) * (1 - np.abs(u))
         square = np.stack([np.where(below, folded_u, u), np.where(below, folded_v, v)], axis=1)
-        return np.rint((square + 1) * (self.last / 2)).astype(np.int64)
+        on_lattice: npt.NDArray[np.float64] = (square + 1) * (self.last / 2)
+        return on_lattice
+
+    def _rounded(self, vectors: npt.NDArray[np.float64]) -> Integers:
+        return np.rint(self.positions(vectors)).astype(np.int64)
 
     def _vectors(self, integers: Integers) -> npt.NDArray[np.float64]:
         u, v = (np.clip(integers, 0, self.last) / (self.last / 2) - 1).T
@@ -67,8 +72,8 @@ class Octahedral:
         return np.stack([x / size, y / size, z / size], axis=1)
 
 
-def are_unit(vectors: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
-    """Which of (n, 3) vectors have about the length 1."""
-    wide = vectors.astype(np.float64)
-    with np.errstate(all="ignore"):
-        return np.asarray(np.abs(np.sqrt((wide * wide).sum(axis=1)) - 1) < TOLERANCE)
+def have_direction(vectors: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
+    """Which of (n, 3) vectors are finite and not zero."""
+    wide = np.abs(vectors.astype(np.float64))
+    largest = wide.max(axis=1, initial=0)
+    return np.asarray(np.isfinite(wide).all(axis=1) & (largest > SHORTEST) & (largest < LONGEST))

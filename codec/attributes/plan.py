@@ -22,19 +22,21 @@ class Relation(enum.IntEnum):
     NONE = 0
     UNIT = 1
     SUM = 2
+    OCTAHEDRAL = 3
 
 
-class Guess(enum.IntEnum):
-    """What entries are expected to be: normals of the faces around, in a mean of some weights."""
+class Guess(enum.IntFlag):
+    """Normals as means of those of the faces around: equal weights, by area or by angle.
+
+    INVERTED: of the other side.  SUM: with the length that sums with such weights have.
+    """
 
     NONE = 0
-    AREA = 1
-    ANGLE = 2
-    UNIFORM = 3
-    INVERTED = 4  # to be added to one of the above: the other side of the surface
-    INVERTED_AREA = 5
-    INVERTED_ANGLE = 6
-    INVERTED_UNIFORM = 7
+    NORMALS = 1
+    AREA = 2
+    ANGLE = 4
+    INVERTED = 8
+    SUM = 16
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from ebz.codec.attributes import lossy
 from ebz.codec.attributes.lattices import Values
 from ebz.codec.attributes.lossy import Lossy, Shares, Step
-from ebz.codec.attributes.octahedral import NORMAL_BITS, Octahedral, are_unit
+from ebz.codec.attributes.octahedral import NORMAL_BITS, Octahedral, have_direction
 
 # Entries beside a lattice of directions (zeros, what is not finite) that are told apart.
 MAX_SPECIAL_VECTORS = 256
@@ -70,7 +70,7 @@ def lattice_of(values: Values, asked: Asked) -> Lossy | None:
 def _are_directions(values: Values) -> bool:
     if values.shape[1] != 3 or values.dtype.kind != "f":
         return False
-    others = values[~are_unit(values)]
+    others = values[~have_direction(values)]
     distinct = {row.tobytes() for row in others}
     return len(others) < len(values) and len(distinct) <= MAX_SPECIAL_VECTORS
 

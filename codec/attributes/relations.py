@@ -21,7 +21,9 @@ LEAST_LENGTH = 60
 def find(plan: Plan, integers: Integers, dtype: np.dtype[np.generic]) -> Plan:
     """The plan with the relation that most entries obey."""
     n_components = integers.shape[1]
-    if n_components < 2 or isinstance(plan.lattice, Octahedral):
+    if isinstance(plan.lattice, Octahedral):
+        return replace(plan, relation=Relation.OCTAHEDRAL, total=plan.lattice.last / 2)
+    if n_components < 2:
         return plan
     in_floats = isinstance(plan.lattice, BitsLattice)
     wide = (plan.lattice.values(integers, dtype) if in_floats else integers).astype(np.float64)

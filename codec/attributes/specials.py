@@ -8,7 +8,7 @@ import numpy.typing as npt
 from ebz.codec.attributes import lattices
 from ebz.codec.attributes.lattices import Values
 from ebz.codec.attributes.lossy import Box, Shares, Step
-from ebz.codec.attributes.octahedral import Octahedral, are_unit
+from ebz.codec.attributes.octahedral import Octahedral, have_direction
 from ebz.codec.attributes.plan import Lattice, Plan
 from ebz.codec.errors import CorruptError
 from ebz.codec.lattice import Integers
@@ -62,7 +62,7 @@ def _beside(
     little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
     if isinstance(lattice, Octahedral):
         rows = little.view(np.dtype((np.void, 3 * values.dtype.itemsize)))
-        return rows[:, 0], ~are_unit(values)
+        return rows[:, 0], ~have_direction(values)
     words = lattices.bits(little)
     if isinstance(lattice, Box | Step | Shares):
         return words, ~np.isfinite(values.astype(np.float64))

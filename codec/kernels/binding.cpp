@@ -285,7 +285,7 @@ std::tuple<int32_t, int32_t, int32_t, int32_t> describe(const Input<int32_t>& op
 // The arrays must stay.
 ebz::attributes::Items attribute_items(const Input<int32_t>& opposite, const Input<int32_t>& item, int32_t n,
                                        size_t n_components, const Input<double>& points,
-                                       const Input<int32_t>& site, const Input<int64_t>& guess) {
+                                       const Input<int32_t>& site, const Input<double>& guess) {
     return {view(opposite), view(item), n, n_components, view(points), view(site), view(guess)};
 }
 
@@ -296,7 +296,7 @@ ebz::attributes::Coding attribute_coding(int method, int space, int relation, do
 
 nb::bytes encode_attribute(const Input<int32_t>& opposite, const Input<int32_t>& item, int32_t n,
                            size_t n_components, const Input<double>& points, const Input<int32_t>& site,
-                           const Input<int64_t>& guess, int method, int space, int relation, double total,
+                           const Input<double>& guess, int method, int space, int relation, double total,
                            const Input<int64_t>& values) {
     const auto items = attribute_items(opposite, item, n, n_components, points, site, guess);
     const auto coding = attribute_coding(method, space, relation, total);
@@ -306,7 +306,7 @@ nb::bytes encode_attribute(const Input<int32_t>& opposite, const Input<int32_t>&
 Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
                                 const Input<int32_t>& item, int32_t n, size_t n_components,
                                 const Input<double>& points, const Input<int32_t>& site,
-                                const Input<int64_t>& guess, int method, int space, int relation, double total) {
+                                const Input<double>& guess, int method, int space, int relation, double total) {
     const auto items = attribute_items(opposite, item, n, n_components, points, site, guess);
     const auto coding = attribute_coding(method, space, relation, total);
     return to_numpy(without_gil([&] {

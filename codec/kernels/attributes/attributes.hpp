@@ -25,6 +25,7 @@ enum class Relation : uint8_t {
     none,
     unit,  // three components: the sum of squares is total^2
     sum,   // the sum is total
+    octahedral,  // two: a unit vector on the unfolded octahedron, total being its centre
 };
 
 // What both sides know.  With `item` (of each corner), items lie on a surface; else with `opposite` they
@@ -35,7 +36,7 @@ struct Items {
     size_t n_components;
     std::span<const double> points;   // 3 per item, or none: where it is
     std::span<const int32_t> site;    // per item, or none: items of one site are at one place
-    std::span<const int64_t> guess;   // n_components per item, or none
+    std::span<const double> guess;    // n_components per item, or none
 };
 
 struct Coding {

@@ -15,6 +15,7 @@ namespace ebz::attributes {
 struct Expectation {
     Hashes context{};
     std::array<int64_t, n_candidates> offset{};  // of each candidate from the base
+    std::array<float, n_candidates> mean{};      // the same before rounding
     std::array<float, n_candidates> scale{};     // of the logistic distribution around it
     unsigned candidates = 0;                     // which there are
     std::array<uint8_t, n_candidates> value_context{};
@@ -66,7 +67,7 @@ private:
         negative_ = negative;
         for (size_t i = 0; i < n_candidates; ++i) {
             value_[i] = negative ? -1 - x.offset[i] : x.offset[i];
-            mean_[i] = static_cast<float>(value_[i]);
+            mean_[i] = negative ? -1.0f - x.mean[i] : x.mean[i];
         }
     }
 

@@ -13,6 +13,7 @@
 #include "../positions/least_squares.hpp"
 #include "../positions/wrapping.hpp"
 #include "attributes.hpp"
+#include "direction.hpp"
 #include "neighbourhood.hpp"
 #include "number_model.hpp"
 #include "texture_map.hpp"
@@ -43,6 +44,7 @@ public:
         map_ = items_.n_components == 2 && !items_.points.empty() ? texture_.predict(items_, v, around, values_, S::value)
                                                                    : TextureMap::Guess{};
         order_components();
+        direct();
     }
 
     // The component coded at a turn.
@@ -57,7 +59,7 @@ public:
         set_features(turn);
         expected_[fitted] = mean_ + t.fit.predict(features_);
         is_there_ |= 1u << fitted;
-        scales(c, t);
+        scales(c, turn, t);
         choose_base();
         describe(turn, t, x);
     }
@@ -71,7 +73,7 @@ public:
         unsigned hit = 0;
         for (size_t k = 0; k < n_candidates; ++k) {
             if ((is_there_ >> k & 1) == 0) continue;
-            const double error = distance(actual, expected_[k]) / (k == implied ? spread_ : 1.0);
+            const double error = distance(actual, expected_[k]) / (k == implied && is_implied_ ? spread_ : norm_);
             t.error[k] += (error - t.error[k]) * rate(t.n_seen[k]);
             if (integer_[k] == value) hit |= 1u << k;
         }
@@ -81,8 +83,9 @@ public:
         deviation_[turn % kept] = actual - mean_;
         steepness_[turn % kept] = expected_[parallelogram] - mean_;
         difference_[turn % kept] = wrapping_difference(value, base_);
-        size_[at(item_, c)] = static_cast<float>(std::min(distance(actual, S::value(base_)), 1e30));
+        size_[at(item_, c)] = static_cast<float>(std::min(distance(actual, S::value(base_)) / norm_, 1e30));
         t.last = difference_[turn % kept];
+        guess_error_ = actual - expected_[guess];
     }
 
     void end() {
@@ -173,17 +176,22 @@ private:
 
     void gather_special(size_t c, size_t turn) {
         spread_ = 1;
+        is_implied_ = false;
         const bool is_row = items_.opposite.empty() && items_.item.empty();
-        if (!items_.guess.empty()) put_value(guess, items_.guess[at(item_, c)]);
+        if (!items_.guess.empty()) put(guess, items_.guess[at(item_, c)]);
         else if (is_row && turn > 0) put_value(guess, integer(item_, component(turn - 1)));
         else if (is_row && last_ >= 0) put_value(guess, integer(last_, items_.n_components - 1));
         if (map_.is_there) put(implied, map_.value[c]);
-        else if (coding_.relation != Relation::none && turn + 1 == items_.n_components) imply(c);
+        else if (relates() && turn + 1 == items_.n_components) imply(c);
+        else if (directed_ && turn == 1) put(implied, expected_[guess] + direction_.slope * guess_error_);
         else if (twin_ >= 0) put_value(implied, integer(twin_, c));
     }
 
+    bool relates() const { return coding_.relation == Relation::unit || coding_.relation == Relation::sum; }
+
     // What the other components leave for the last.
     void imply(size_t c) {
+        is_implied_ = true;
         double rest = 0, most = 0;
         for (size_t d = 0; d < items_.n_components; ++d) {
             if (d == c) continue;
@@ -205,16 +213,36 @@ private:
         if (!ordered_) return;
         std::array<double, 3> size{};
         for (size_t c = 0; c < 3; ++c) {
-            if (!items_.guess.empty()) size[c] = std::abs(S::value(items_.guess[at(item_, c)]));
+            if (!items_.guess.empty()) size[c] = std::abs(items_.guess[at(item_, c)]);
             else if (near_ >= 0) size[c] = std::abs(value(near_, c));
         }
         order_ = {0, 1, 2};
         std::stable_sort(order_.begin(), order_.end(), [&](size_t a, size_t b) { return size[a] < size[b]; });
     }
 
+    // What errors of the guess will be like.
+    void direct() {
+        directed_ = !items_.guess.empty() && (coding_.relation == Relation::octahedral || ordered_);
+        if (!directed_) return;
+        const auto at_turn = [&](size_t turn) { return items_.guess[at(item_, component(turn))]; };
+        direction_ = ordered_ ? Direction::of_vector({at_turn(0), at_turn(1), at_turn(2)})
+                              : Direction::of_octahedron(at_turn(0), at_turn(1), coding_.total);
+    }
+
+    // How far the guesses around were off: what spoils one often spoils its neighbour's.
+    double guess_error_around(size_t c) const {
+        double sum = 0;
+        for (size_t i = 0; i < around_->n_neighbours; ++i) {
+            const int32_t u = around_->neighbours[i];
+            sum += value(u, c) - items_.guess[at(u, c)];
+        }
+        return around_->n_neighbours > 0 ? sum / static_cast<double>(around_->n_neighbours) : 0.0;
+    }
+
     void set_features(size_t turn) {
         const auto difference = [&](size_t k) { return (is_there_ >> k & 1) != 0 ? expected_[k] - mean_ : 0.0; };
-        features_ = {difference(parallelogram), difference(near), difference(second), difference(guess), difference(implied)};
+        const double third = items_.guess.empty() ? difference(second) : guess_error_around(component(turn));
+        features_ = {difference(parallelogram), difference(near), third, difference(guess), difference(implied)};
         for (size_t back = 1; back <= 3 && back <= turn; ++back) features_[4 + back] = deviation_[(turn - back) % kept];
         for (size_t back = 1; back <= 3 && back <= turn; ++back) features_[7 + back] = steepness_[(turn - back) % kept];
         usable_ = true;
@@ -225,7 +253,8 @@ private:
     }
 
     // How far off each candidate may be.
-    void scales(size_t c, const Turn& t) {
+    void scales(size_t c, size_t turn, const Turn& t) {
+        norm_ = directed_ && turn < 2 ? direction_.spread[turn] : 1.0;
         double sum = 0;
         int n = 0;
         for (size_t i = 0; i < around_->n_neighbours; ++i) {
@@ -233,11 +262,11 @@ private:
             ++n;
         }
         const double typical = t.n_seen[fitted] > 0 ? t.error[fitted] : 1.0;
-        local_ = n > 0 ? (sum + typical) / (n + 1) : typical;
+        local_ = (n > 0 ? (sum + typical) / (n + 1) : typical) * norm_;
         for (size_t k = 0; k < n_candidates; ++k) {
             if ((is_there_ >> k & 1) == 0) continue;
             const double ratio = t.n_seen[k] > 0 ? t.error[k] / std::max(typical, 1e-300) : 1.0;
-            scale_[k] = k == implied && coding_.relation != Relation::none ? t.error[k] * spread_ : local_ * std::min(ratio, 1e6);
+            scale_[k] = k == implied && is_implied_ ? t.error[k] * spread_ : local_ * std::min(ratio, 1e6);
         }
     }
 
@@ -268,6 +297,7 @@ private:
         x.candidates = is_there_;
         for (size_t k = 0; k < n_candidates; ++k) {
             x.offset[k] = wrapping_difference(integer_[k], base_);
+            x.mean[k] = static_cast<float>(limited(S::offset(expected_[k], base_), -1e18, 1e18));
             x.scale[k] = static_cast<float>(limited(0.6 * scale_[k] / unit_, 0.08, 1e18));
             const unsigned before = turn == 0 ? 0 : 1 + (hits_ >> k & 1);
             x.value_context[k] = static_cast<uint8_t>(before * 8 + t.history[k]);
@@ -310,7 +340,8 @@ private:
     int32_t item_ = 0, near_ = -1, second_ = -1, twin_ = -1;
     TextureMap::Guess map_;
     std::array<size_t, 3> order_{};
-    bool ordered_ = false;
+    bool ordered_ = false, directed_ = false;
+    Direction direction_;
     std::array<double, kept> deviation_{}, steepness_{};
     std::array<int64_t, kept> difference_{};
     unsigned hits_ = 0;
@@ -320,6 +351,8 @@ private:
     std::array<int64_t, n_candidates> integer_{};
     unsigned is_there_ = 0;
     Fit::Vector features_{};
+    double norm_ = 1, guess_error_ = 0;
+    bool is_implied_ = false;
     double mean_ = 0, local_ = 1, unit_ = 1, spread_ = 1, disagreement_ = 0, best_scale_ = 1;
     int64_t base_ = 0;
     int n_parallelograms_ = 0;

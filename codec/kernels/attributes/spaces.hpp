@@ -18,12 +18,17 @@ struct IntegerSpace {
     static int64_t nearest(double x) { return positions::rounded(x); }
     // The distance of neighbouring values at x.
     static double unit(double) { return 1.0; }
+    // Where x is among the integers from base on.
+    static double offset(double x, int64_t base) { return x - static_cast<double>(base); }
 };
 
 template <class Base, class Float>
 struct FloatSpaceOf {
     static double value(int64_t x) { return Base::value(x); }
     static int64_t nearest(double x) { return Base::mean(x, 1); }
+    static double offset(double x, int64_t base) {
+        return static_cast<double>(positions::wrapping_difference(nearest(x), base));
+    }
     static double unit(double x) {
         const double at = std::min(std::abs(x), static_cast<double>(std::numeric_limits<Float>::max()) / 2);
         const int64_t ordered = nearest(at);
