@@ -44,7 +44,8 @@ def parse(parsed: Any, dtype: np.dtype[Any], n_components: int) -> Plan:
     is_guess = Guess.NORMALS in guess and Guess.AREA | Guess.ANGLE not in guess
     if guess and (n_components != 3 or not is_guess):
         raise CorruptError(f"normals of {n_components} components as guess {guess}")
-    if (relation == Relation.OCTAHEDRAL) != isinstance(lattice, Octahedral):
+    is_octahedral = isinstance(lattice, Octahedral)
+    if relation and (relation == Relation.OCTAHEDRAL) != is_octahedral:
         raise CorruptError(f"relation {relation} on a lattice of kind {lattice.kind}")
     if relation == Relation.UNIT and n_components != 3:
         raise CorruptError(f"unit vectors of {n_components} components")

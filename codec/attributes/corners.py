@@ -1,5 +1,6 @@
 """Attributes of corners: which corners at a vertex share a value (its wedges), and the values."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -59,8 +60,10 @@ def _items(wedge: Int32s, sites: Sites) -> Items:
 
 def _wedges(values: npt.NDArray[Any], vertex: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
     """The wedge of each corner, numbered by first use, and which corners are the first of one."""
-    entries = np.ascontiguousarray(values).reshape(len(values), -1)
-    keys = entries.view(np.uint8).reshape(len(values), -1)
-    columns = np.concatenate([np.ascontiguousarray(vertex)[:, None].view(np.uint8), keys], axis=1)
+    n, size = len(values), values.itemsize * math.prod(values.shape[1:])
+    keys = np.ascontiguousarray(values).reshape(-1).view(np.uint8).reshape(n, size)
+    columns = np.concatenate(
+        [np.ascontiguousarray(vertex).view(np.uint8).reshape(n, 4), keys], axis=1
+    )
     rows = np.ascontiguousarray(columns).view(np.dtype((np.void, columns.shape[1])))[:, 0]
     return number_by_first_use(np.unique(rows, return_inverse=True)[1].astype(np.int32))
