@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
+from ebz.codec.attributes.summary import summary
 from ebz.codec.connectivity import EncodedWord, Surface, WordModel
 from ebz.codec.encoded import EncodedArray, EncodedMesh
 from ebz.codec.mesh import Mesh
@@ -51,7 +52,7 @@ class Stats:
     model: str
     lattice: dict[str, Any]
     exceptions: int
-    attributes: dict[str, str]
+    attributes: dict[str, dict[str, Any]]
     streams: list[Stream]
     connectivity_bytes: int
     geometry_bytes: int
@@ -117,7 +118,7 @@ def describe(
         model=_model_name(encoded.model),
         lattice={"kind": encoded.lattice.kind, **_parameters(encoded.lattice)},
         exceptions=encoded.n_exceptions,
-        attributes=_attribute_names(encoded),
+        attributes=_attributes(encoded),
         streams=[Stream(k, size, _per_vertex(size, n_vertices)) for k, size in chunk_sizes.items()],
         connectivity_bytes=connectivity,
         geometry_bytes=geometry,
@@ -165,13 +166,12 @@ def _parameters(lattice: Any) -> dict[str, Any]:
     return parameters
 
 
-def _attribute_names(encoded: EncodedMesh) -> dict[str, str]:
-    described = {}
-    for owner, _, arrays in _owners(encoded):
-        for array in arrays:
-            shape = "".join(f" x {extent}" for extent in array.shape)
-            described[f"{owner} {', '.join(array.names)}"] = f"{array.dtype.name}{shape}"
-    return described
+def _attributes(encoded: EncodedMesh) -> dict[str, dict[str, Any]]:
+    return {
+        f"{owner} {', '.join(array.names)}": summary(array)
+        for owner, _, arrays in _owners(encoded)
+        for array in arrays
+    }
 
 
 def _owners(encoded: EncodedMesh) -> Iterator[tuple[str, int, list[EncodedArray]]]:

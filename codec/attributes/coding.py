@@ -17,7 +17,7 @@ from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items
 from ebz.codec.attributes.lattices import BitsLattice
 from ebz.codec.attributes.octahedral import Octahedral
-from ebz.codec.attributes.plan import Guess, Method, Plan
+from ebz.codec.attributes.plan import Guess, Method, Plan, Relation
 from ebz.codec.attributes.precision import AttributePrecision, lattice_of
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import CorruptError, corrupt_at
@@ -121,7 +121,8 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
     guess = np.zeros(0)
     if plan.guess != Guess.NONE and not plan.n_labels:
         guess = guesses.positions(plan, items)
-    points = items.points.reshape(-1) if width == 2 and not plan.n_labels else np.zeros(0)
+    is_flat = width == 2 and not plan.n_labels and plan.relation != Relation.OCTAHEDRAL
+    points = items.points.reshape(-1) if is_flat else np.zeros(0)
     return {
         "opposite": items.opposite,
         "item": items.item,
