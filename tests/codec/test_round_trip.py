@@ -211,3 +211,14 @@ def test_equal_values_at_a_vertex_are_stored_once():
     )
     by_vertex = ebz.Mesh(mesh.vertices, mesh.faces, {"uv": values})
     assert len(ebz.compress(by_corner)) == len(ebz.compress(by_vertex))
+
+
+@settings(max_examples=40, deadline=None)
+@given(meshes(), st.booleans())
+def test_corner_attributes_stay_with_their_corners(mesh, keep_order):
+    corner = {"corner": mesh.faces.reshape(-1).astype(np.int64)}
+    mesh = ebz.Mesh(mesh.vertices, mesh.faces, corner_attributes=corner)
+    data, permutation = ebz.compress(mesh, keep_order=keep_order, return_permutation=True)
+    decoded = ebz.decompress(data)
+    vertices = permutation.vertices[decoded.faces.reshape(-1)]
+    assert np.array_equal(decoded.corner_attributes["corner"], vertices)
