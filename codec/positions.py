@@ -39,7 +39,10 @@ def encode(
         (_kernels.encode_positions(*_arrays(surface), n_along, values, chosen), chosen)
         for chosen in _candidates(points, dtype, method)
     ]
-    return min(streams, key=lambda pair: len(pair[0]))
+    stream, chosen = min(streams, key=lambda pair: len(pair[0]))
+    if not stream:  # more than the 32 bits of the fast method
+        return encode(surface, points, n_along, dtype, Method.MEDIUM)
+    return stream, chosen
 
 
 def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> Integers:

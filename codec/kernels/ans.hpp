@@ -35,6 +35,12 @@ public:
         return symbol;
     }
 
+    // One symbol in each lane.
+    template <int n>
+    void symbols(const std::array<AdaptiveSymbol<n>*, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
+        for (size_t lane = 0; lane < n_lanes; ++lane) symbol(lane, *models[lane], symbols[lane]);
+    }
+
     // Of a model that is not to learn.
     template <int n>
     uint32_t fixed(size_t lane, const AdaptiveSymbol<n>& model, uint32_t symbol) {
@@ -118,6 +124,22 @@ public:
         refill(state);
         model.learn(symbol);
         return symbol;
+    }
+
+    // States are held in registers, all lanes side by side.
+    template <int n>
+    void symbols(const std::array<AdaptiveSymbol<n>*, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
+        std::array<uint64_t, n_lanes> states = states_;
+        for (size_t lane = 0; lane < n_lanes; ++lane) {
+            constexpr int total_bits = AdaptiveSymbol<n>::total_bits;
+            const auto slot = static_cast<uint32_t>(states[lane]) & ((1u << total_bits) - 1);
+            symbols[lane] = models[lane]->find(slot);
+            const Share share = models[lane]->share(symbols[lane]);
+            states[lane] = share.frequency * (states[lane] >> total_bits) + slot - share.start;
+        }
+        for (uint64_t& state : states) refill(state);
+        states_ = states;
+        for (size_t lane = 0; lane < n_lanes; ++lane) models[lane]->learn(symbols[lane]);
     }
 
     template <int n>

@@ -1,8 +1,8 @@
-// Codes vertices in the order of the faces, each from the face behind its gate.
+// Codes vertices in the order of the faces, each from the face behind its gate, in integers of 32 bits.
 //
 // Prediction is one parallelogram, or the mean of two where the next face on the right is known too.
-// The size of a residual is a symbol in the context of the sizes at the gate; its digits are raw.
-// Each axis has its own coder (ans.hpp): the three run side by side.
+// The size of a residual is a symbol in the context of the sizes at the gate; its digits are plain bits.
+// Each axis has its own lane of ANS: the three run side by side.
 #pragma once
 
 #include <algorithm>
@@ -16,50 +16,145 @@
 
 #include "../adaptive_symbol.hpp"
 #include "../ans.hpp"
+#include "../bits.hpp"
 #include "residual_digits.hpp"
 #include "surface.hpp"
-#include "wrapping.hpp"
 
 namespace ebz::positions {
 
+// A stream: the size of the symbols' part in 4 bytes, that part, the plain bits.
+struct FastEncoder {
+    static constexpr bool encoding = true;
+
+    ans::Encoder<3> symbols;
+    BitWriter plain;
+
+    std::vector<uint8_t> finish() {
+        const std::vector<uint8_t> first = symbols.finish(), second = plain.finish();
+        std::vector<uint8_t> bytes(4);
+        for (size_t i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(first.size() >> (8 * i));
+        bytes.insert(bytes.end(), first.begin(), first.end());
+        bytes.insert(bytes.end(), second.begin(), second.end());
+        return bytes;
+    }
+};
+
+struct FastDecoder {
+    static constexpr bool encoding = false;
+
+    ans::Decoder<3> symbols;
+    BitReader plain;
+
+    explicit FastDecoder(std::span<const uint8_t> bytes) : FastDecoder(bytes, size_of_symbols(bytes)) {}
+
+private:
+    FastDecoder(std::span<const uint8_t> bytes, size_t n)
+        : symbols(bytes.subspan(std::min<size_t>(bytes.size(), 4), n)), plain(bytes.subspan(std::min(bytes.size(), 4 + n))) {}
+
+    static size_t size_of_symbols(std::span<const uint8_t> bytes) {
+        if (bytes.size() < 4) return 0;
+        size_t n = 0;
+        for (size_t i = 0; i < 4; ++i) n |= size_t{bytes[i]} << (8 * i);
+        return std::min(n, bytes.size() - 4);
+    }
+};
+
+// A coordinate's residual is told by its size; those far from what was expected by one told before, or in full.
 class FastModel {
 public:
     static constexpr size_t n_kinds = 4;
+    using Row = AdaptiveSymbol<16>;
+    using Residuals = std::array<int32_t, 3>;
 
-    // expected: the half-octave that the magnitude of e is expected in.
+    // expected: the half-octaves that the magnitudes are expected in.
     template <class Coder>
-    int64_t code(Coder& coder, size_t axis, size_t kind, uint32_t expected, int64_t e) {
-        const int shift = expected > centre ? std::min(static_cast<int>(expected - centre) / 2, max_shift) : 0;
-        AdaptiveSymbol<16>& row = rows_[axis][kind][std::min<size_t>(expected, n_expected - 1)];
-        const uint64_t a = magnitude(e);
-        const uint32_t token = coder.symbol(axis, row, residual_token(a, shift));
-        if (token == 0 && shift == 0) return 0;
-        if (token == escape_token) return code_large(coder, axis, e);
-        // The sign is the lowest digit.
-        const uint64_t decoded = code_low_digits(coder, axis, token, shift, a, e < 0);
-        return with_sign(decoded >> 1, decoded & 1);
+    void code(Coder& coder, size_t kind, const std::array<uint8_t, 4>& expected, Residuals& e) {
+        std::array<Row*, 3> rows;
+        std::array<uint32_t, 3> tokens;
+        std::array<int, 3> shifts;
+        for (size_t d = 0; d < 3; ++d) {
+            const uint32_t x = expected[d];
+            shifts[d] = x > centre ? static_cast<int>(x - centre) / 2 : 0;
+            rows[d] = &rows_[d][kind][std::min<size_t>(x, n_expected - 1)];
+            if constexpr (Coder::encoding) tokens[d] = residual_token(magnitude(e[d]), shifts[d]);
+        }
+        coder.symbols.symbols(rows, tokens);
+        for (size_t d = 0; d < 3; ++d) {
+            e[d] = tokens[d] == escape_token ? code_surprise(coder, d, e[d]) : code_digits(coder, tokens[d], shifts[d], e[d]);
+        }
     }
 
 private:
     static constexpr uint32_t centre = 8;
     static constexpr size_t n_expected = 32;
+    static constexpr size_t n_recent = 15;
 
-    std::array<std::array<std::array<AdaptiveSymbol<16>, n_expected>, n_kinds>, 3> rows_;
+    // The sign is the lowest digit.
+    template <class Coder>
+    static int32_t code_digits(Coder& coder, uint32_t token, int shift, int32_t e) {
+        const int n = n_low_digits(token, shift);
+        const int n_bits = n + 1 - (token == 0 && shift == 0);
+        uint64_t digits = 0;
+        if constexpr (Coder::encoding) digits = ((magnitude(e) & ((uint64_t{1} << n) - 1)) << 1 | (e < 0));
+        digits = coder.plain.bits(digits, n_bits);
+        return static_cast<int32_t>(with_sign(leading_digits(token) << n | digits >> 1, digits & 1));
+    }
+
+    // 0: a new one; else its place among the recent ones, from 1.
+    template <class Coder>
+    int32_t code_surprise(Coder& coder, size_t d, int32_t e) {
+        std::array<int32_t, n_recent>& recent = recent_[d];
+        uint32_t place = 0;
+        if constexpr (Coder::encoding) {
+            const auto at = std::find(recent.begin(), recent.end(), e);
+            place = at == recent.end() ? 0 : static_cast<uint32_t>(at - recent.begin()) + 1;
+        }
+        place = coder.symbols.symbol(d, places_[d], place);
+        if (place > 0) return recent[place - 1];
+        const uint32_t zigzag = static_cast<uint32_t>(e) << 1 ^ static_cast<uint32_t>(e >> 31);
+        const auto n_digits = static_cast<int>(coder.plain.bits(static_cast<uint64_t>(std::bit_width(zigzag)), 6));
+        const auto digits = static_cast<uint32_t>(coder.plain.bits(zigzag, std::min(n_digits, 32)));
+        e = static_cast<int32_t>(digits >> 1 ^ (0 - (digits & 1)));
+        recent[oldest_[d]] = e;
+        oldest_[d] = static_cast<uint8_t>((oldest_[d] + 1u) % n_recent);
+        return e;
+    }
+
+    std::array<std::array<std::array<Row, n_expected>, n_kinds>, 3> rows_;
+    std::array<Row, 3> places_;
+    std::array<std::array<int32_t, n_recent>, 3> recent_{};
+    std::array<uint8_t, 3> oldest_{};
+};
+
+// A vertex and the half-octaves of its residual.
+struct FastVertex {
+    std::array<uint32_t, 3> position;
+    std::array<uint8_t, 4> sizes;
 };
 
 template <class Coder>
 class FastCoder {
 public:
-    FastCoder(Coder& coder, const Surface& mesh, std::span<int64_t> xyz)
-        : coder_(coder), mesh_(mesh), xyz_(xyz.data()), n_vertices_(mesh.n_vertices), sizes_(xyz.size() / 3 + 1) {}
+    // vertices: as many as the surface has.
+    FastCoder(Coder& coder, const Surface& mesh, std::span<FastVertex> vertices)
+        : coder_(coder), opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()),
+          n_faces_(static_cast<int32_t>(mesh.vertex.size() / 3)), vertices_(vertices.data()),
+          n_vertices_(mesh.n_vertices) {}
 
+    // Faces are sifted in blocks for those that have a new vertex, without a branch that is hard to foresee.
     void run() {
-        const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
-        for (int32_t t = 0; t < n_faces; ++t) {
-            const int32_t gate = 3 * t;
-            if (vertex(gate + 2) >= known_ && tip(gate)) continue;
-            for (int32_t c = gate; c < gate + 3; ++c)
-                if (vertex(c) >= known_) from_latest(c == gate ? 2 : 3);
+        constexpr int32_t block = 256;
+        std::array<int32_t, block> fresh;
+        for (int32_t t = 0, n = 0; t < n_faces_;) {
+            const int32_t end = std::min(t + block, n_faces_);
+            size_t n_fresh = 0;
+            for (; t < end; ++t) {
+                const int32_t largest = std::max({vertex_[3 * t], vertex_[3 * t + 1], vertex_[3 * t + 2]});
+                fresh[n_fresh] = t;
+                n_fresh += largest >= n;
+                n = std::max(n, largest + 1);
+            }
+            for (size_t i = 0; i < n_fresh; ++i) face(3 * fresh[i]);
         }
         while (known_ < n_vertices_) from_latest(2);
     }
@@ -67,82 +162,90 @@ public:
 private:
     using Sizes = std::array<uint8_t, 4>;
 
-    int32_t vertex(int32_t c) const { return mesh_.vertex[static_cast<size_t>(c)]; }
-    int32_t opposite(int32_t c) const { return mesh_.opposite[static_cast<size_t>(c)]; }
-    const int64_t* position(int32_t v) const { return xyz_ + 3 * static_cast<size_t>(v); }
+    void face(int32_t gate) {
+        if (vertex_[gate + 2] >= known_ && tip(gate)) return;
+        for (int32_t c = gate; c < gate + 3; ++c)
+            if (vertex_[c] >= known_) from_latest(c == gate ? 2 : 3);
+    }
 
     // False if the face behind the gate is not known: the first of a component has none.
     bool tip(int32_t gate) {
-        if (opposite(gate) < 0) return false;
-        const int32_t a = vertex(gate), b = vertex(gate + 1), o = vertex(previous(opposite(gate)));
+        if (opposite_[gate] < 0) return false;
+        const int32_t a = vertex_[gate], b = vertex_[gate + 1], o = vertex_[previous(opposite_[gate])];
         if (a >= known_ || b >= known_ || o >= known_) return false;
-        std::array<uint64_t, 3> base;
-        for (size_t d = 0; d < 3; ++d) base[d] = sum(a, b, o, d);
-        size_t kind = 0;
-        const int32_t y = second(gate + 1), x = y < 0 ? -1 : x_;
-        if (y >= 0) {
-            kind = 1;
-            for (size_t d = 0; d < 3; ++d) {
-                const uint64_t other = sum(b, x, y, d) - base[d];
-                base[d] += static_cast<uint64_t>(static_cast<int64_t>(other) >> 1);
-            }
+        // The apex y of the second parallelogram is behind the face on the right, which has x, the tip and b.
+        const int32_t across = opposite_[gate + 1], right = across < 0 ? gate : across;
+        const int32_t x = vertex_[previous(right)], beyond = opposite_[next(right)];
+        const int32_t y = vertex_[previous(beyond < 0 ? gate : beyond)];
+        const bool second = (across >= 0) & (beyond >= 0) & (x < known_) & (y < known_);
+        const FastVertex &va = vertices_[a], &vb = vertices_[b], &vo = vertices_[o];
+        const FastVertex &vx = vertices_[second ? x : a], &vy = vertices_[second ? y : o];
+        std::array<uint32_t, 3> base;
+        Sizes expected{};
+        for (size_t d = 0; d < 3; ++d) {
+            const uint32_t first = va.position[d] + vb.position[d] - vo.position[d];
+            const uint32_t other = vb.position[d] + vx.position[d] - vy.position[d];
+            base[d] = first + static_cast<uint32_t>(static_cast<int32_t>(other - first) >> 1);
+            expected[d] = static_cast<uint8_t>((va.sizes[d] + vb.sizes[d] + 1) / 2);
         }
-        code(kind, base, sizes_[static_cast<size_t>(a)], sizes_[static_cast<size_t>(b)]);
+        code(second, base, expected);
         return true;
-    }
-
-    // The apex of the second parallelogram, across from the tip: behind the face on the right (which has the
-    // tip, the end of the gate and x_).
-    int32_t second(int32_t right) {
-        const int32_t across = opposite(right);
-        if (across < 0) return -1;
-        x_ = vertex(previous(across));
-        if (x_ >= known_) return -1;
-        const int32_t beyond = opposite(next(across));
-        if (beyond < 0) return -1;
-        const int32_t y = vertex(previous(beyond));
-        return y < known_ ? y : -1;
-    }
-
-    uint64_t sum(int32_t a, int32_t b, int32_t o, size_t d) const {
-        return static_cast<uint64_t>(position(a)[d]) + static_cast<uint64_t>(position(b)[d]) - static_cast<uint64_t>(position(o)[d]);
     }
 
     // Without a parallelogram: from the vertex coded before, which is a neighbour for kind 3.
     void from_latest(size_t kind) {
-        std::array<uint64_t, 3> base{};
-        for (size_t d = 0; known_ > 0 && d < 3; ++d) base[d] = static_cast<uint64_t>(position(known_ - 1)[d]);
         Sizes& steps = steps_[kind - 2];
-        code(kind, base, steps, steps);
-        steps = sizes_[static_cast<size_t>(known_ - 1)];
-        sizes_[static_cast<size_t>(known_ - 1)] = {};
+        code(kind, known_ > 0 ? vertices_[known_ - 1].position : std::array<uint32_t, 3>{}, steps);
+        steps = vertices_[known_ - 1].sizes;
+        vertices_[known_ - 1].sizes = {};
     }
 
-    void code(size_t kind, const std::array<uint64_t, 3>& base, const Sizes& sa, const Sizes& sb) {
-        int64_t* at = xyz_ + 3 * static_cast<size_t>(known_);
-        Sizes& sizes = sizes_[static_cast<size_t>(known_)];
+    void code(size_t kind, const std::array<uint32_t, 3>& base, const Sizes& expected) {
+        FastVertex& at = vertices_[known_];
+        FastModel::Residuals e;
+        for (size_t d = 0; d < 3; ++d) e[d] = static_cast<int32_t>(at.position[d] - base[d]);
+        model_.code(coder_, kind, expected, e);
         for (size_t d = 0; d < 3; ++d) {
-            const uint32_t expected = (uint32_t{sa[d]} + sb[d] + 1) / 2;
-            const int64_t e = model_.code(coder_, d, kind, expected, static_cast<int64_t>(static_cast<uint64_t>(at[d]) - base[d]));
-            at[d] = static_cast<int64_t>(base[d] + static_cast<uint64_t>(e));
-            sizes[d] = static_cast<uint8_t>(half_octave(magnitude(e)));
+            at.position[d] = base[d] + static_cast<uint32_t>(e[d]);
+            at.sizes[d] = static_cast<uint8_t>(half_octave(magnitude(e[d])));
         }
         ++known_;
     }
 
     Coder& coder_;
-    const Surface& mesh_;
-    int64_t* xyz_;
-    int32_t n_vertices_, known_ = 0, x_ = -1;
-    std::vector<Sizes> sizes_;
+    const int32_t *opposite_, *vertex_;
+    int32_t n_faces_;
+    FastVertex* vertices_;
+    int32_t n_vertices_, known_ = 0;
     std::array<Sizes, 2> steps_{};
     FastModel model_;
 };
 
 template <class Coder>
-void code_positions_fast(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
-    const auto fast = std::make_unique<FastCoder<Coder>>(coder, mesh, xyz);
-    fast->run();
+void code_positions_fast(Coder& coder, const Surface& mesh, std::span<FastVertex> vertices) {
+    std::make_unique<FastCoder<Coder>>(coder, mesh, vertices)->run();
+}
+
+// Nothing where a value has more than 32 bits.
+inline std::vector<uint8_t> encode_positions_fast(const Surface& mesh, std::span<const int64_t> values) {
+    std::vector<FastVertex> vertices(values.size() / 3);
+    bool fits = true;
+    for (size_t i = 0; i < values.size(); ++i) {
+        const auto value = static_cast<int32_t>(values[i]);
+        fits &= value == values[i];
+        vertices[i / 3].position[i % 3] = static_cast<uint32_t>(value);
+    }
+    if (!fits) return {};
+    FastEncoder coder;
+    code_positions_fast(coder, mesh, vertices);
+    return coder.finish();
+}
+
+inline void decode_positions_fast(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
+    std::vector<FastVertex> vertices(values.size() / 3);
+    FastDecoder coder(bytes);
+    code_positions_fast(coder, mesh, vertices);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int32_t>(vertices[i / 3].position[i % 3]);
 }
 
 }  // namespace ebz::positions

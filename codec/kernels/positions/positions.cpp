@@ -11,8 +11,6 @@ namespace ebz::positions {
 
 namespace {
 
-constexpr size_t n_axes = 3;
-
 template <class Coder>
 void code(Coder& coder, const Surface& surface, Method method, std::span<int64_t> values) {
     switch (method) {
@@ -27,11 +25,6 @@ void code(Coder& coder, const Surface& surface, Method method, std::span<int64_t
 // Calls work with the coder that the method takes.
 template <template <size_t> class Ans, class Range, class Work>
 auto with_coder(Method method, const Surface& surface, std::span<int64_t> values, Work work, auto... source) {
-    if (method == Method::fast) {
-        Ans<n_axes> coder(source...);
-        code_positions_fast(coder, surface, values);
-        return work(coder);
-    }
     if (method == Method::medium) {
         Ans<1> coder(source...);
         code_positions_medium(coder, surface, values);
@@ -45,6 +38,7 @@ auto with_coder(Method method, const Surface& surface, std::span<int64_t> values
 }  // namespace
 
 std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> values, Method method) {
+    if (method == Method::fast) return encode_positions_fast(surface, values);
     // The shared path writes to each vertex what it read from it.
     std::vector<int64_t> copy(values.begin(), values.end());
     const auto finish = [](auto& coder) { return coder.finish(); };
@@ -52,6 +46,7 @@ std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> val
 }
 
 void decode(std::span<const uint8_t> bytes, const Surface& surface, Method method, std::span<int64_t> values) {
+    if (method == Method::fast) return decode_positions_fast(bytes, surface, values);
     with_coder<ans::Decoder, RangeDecoder>(method, surface, values, [](auto&) {}, bytes);
 }
 

@@ -16,7 +16,7 @@
 namespace ebz::positions {
 
 enum class Method : uint8_t {
-    fast,    // one symbol per coordinate, three coders side by side
+    fast,    // one symbol per coordinate, three coders side by side; values of 32 bits
     light,   // a few mixed decisions
     strong,  // every model there is
     float32_bits,  // values are floats by their order (spaces.hpp), predictions are made in floats
@@ -24,7 +24,8 @@ enum class Method : uint8_t {
     medium,  // as light, but one symbol per coordinate
 };
 
-// values: 3 per vertex; magnitudes up to 2^40 but for the float methods.
+// values: 3 per vertex; magnitudes up to 2^40 but for the float methods.  Method fast gives nothing where a
+// value has more than 32 bits.
 std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> values, Method method);
 
 // Fills values with what was encoded by the same method.  Any bytes decode to some positions.
