@@ -116,6 +116,32 @@ def decimal_digits(values: Annotated[NDArray[numpy.float64], dict(shape=(None,),
     The fewest decimals that all values but max_misses have, -1 if there are too many.
     """
 
+@overload
+def bounds(coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[tuple[float, float, float], tuple[float, float, float]]: ...
+
+@overload
+def bounds(coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """
+    The least and the greatest of each axis, infinite where some are not finite.
+    """
+
+@overload
+def to_multiples(coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu', writable=False)], origin: tuple[float, float, float], step: float) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]: ...
+
+@overload
+def to_multiples(coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], origin: tuple[float, float, float], step: float) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """The nearest integers to (x - origin) / step."""
+
+@overload
+def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+
+@overload
+def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """Fills coordinates with origin + step * integer."""
+
+def number_by_first_use(entries: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_items: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """The number of each entry's item, and the items by number."""
+
 def encode_integers(values: Annotated[NDArray[numpy.uint64], dict(shape=(None,), order='C', device='cpu', writable=False)], n_columns: int) -> bytes:
     """Rows of unsigned integers, a model per column."""
 

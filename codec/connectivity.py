@@ -52,11 +52,13 @@ class Surface:
 
     opposite: (3m,) the half-edge across, -1 on a boundary.  piece_vertex: (3m,) vertices of the
     manifold pieces.  vertex_of_piece: the mesh vertex of each, numbered by first use.
+    n_vertices: of the mesh, those that faces use.
     """
 
     opposite: Int32s
     piece_vertex: Int32s
     vertex_of_piece: Int32s
+    n_vertices: int
 
     @cached_property
     def vertex(self) -> Int32s:
@@ -69,11 +71,6 @@ class Surface:
     def has_copies(self) -> bool:
         """Whether a piece vertex is glued; if not, vertices are numbered as those of the pieces."""
         return self.n_vertices < len(self.vertex_of_piece)
-
-    @cached_property
-    def n_vertices(self) -> int:
-        """Mesh vertices that faces use."""
-        return int(self.vertex_of_piece.max(initial=-1)) + 1
 
 
 @dataclass(frozen=True)
@@ -159,7 +156,7 @@ def decode(
     with corrupt_at(place("gluing")):
         vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
     encoded = EncodedWord(counts, model, symbols, specials, word, special_integers, gluing)
-    return encoded, Surface(opposite, piece_vertex, vertex_of_piece)
+    return encoded, Surface(opposite, piece_vertex, vertex_of_piece, n_pieces - counts.n_copies)
 
 
 def traverse(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Surface, OutputOrder]:
@@ -220,18 +217,19 @@ def _traverse(
     symbols, specials, n_closed, n_single, corners, opposite, piece_vertex, source = (
         _kernels.encode_connectivity(compact.reshape(-1), n_compact)
     )
-    vertex_of_piece, is_first = number_by_first_use(source)
-    order = source[is_first].astype(np.int64)
-    order = order if used is None else used[order]
+    vertex_of_piece, firsts = _kernels.number_by_first_use(source, n_compact)
+    order = firsts.astype(np.int64) if used is None else used[firsts]
     return (
         (symbols, specials, n_closed, n_single),
-        Surface(opposite, piece_vertex, vertex_of_piece),
+        Surface(opposite, piece_vertex, vertex_of_piece, len(firsts)),
         OutputOrder(corners, _with_isolated(order, n_vertices)),
     )
 
 
 def _copies(surface: Surface) -> Int64s:
     """The piece vertices that are glued to an earlier one; the others have ascending numbers."""
+    if not surface.has_copies:
+        return np.zeros(0, np.int64)
     latest = np.maximum.accumulate(surface.vertex_of_piece)
     return np.flatnonzero(np.diff(latest, prepend=-1) == 0)
 
@@ -242,16 +240,6 @@ def _compact(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Int64s | None, I
         return None, np.ascontiguousarray(faces, np.int32)
     used, compact = np.unique(faces, return_inverse=True)
     return used.astype(np.int64), compact.astype(np.int32)
-
-
-def number_by_first_use(source: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
-    """Numbers for repeated items by first appearance, and which entries are first appearances."""
-    entries = np.arange(len(source), dtype=np.int32)
-    first = np.zeros(int(source.max(initial=-1)) + 1, np.int32)
-    first[source[::-1]] = entries[::-1]  # of repeated indices, the last assignment stays
-    is_first = first[source] == entries
-    number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
-    return number[first[source]], is_first
 
 
 def _next(corners: Int32s) -> Int32s:

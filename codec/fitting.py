@@ -4,6 +4,7 @@ Fitting depends on the set of coordinates alone, not on their order, and gives t
 the coordinates it decodes to: that makes compression canonical.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -55,7 +56,7 @@ def check(vertices: Floats, precision: Precision) -> None:
     """Raise MeshError or OptionError, naming the first vertex that cannot be rounded so."""
     if precision.is_lossless:
         return
-    if not np.isfinite(vertices).all():
+    if len(vertices) and math.isinf(_kernels.bounds(vertices.reshape(-1))[0][0]):
         row, axis = np.argwhere(~np.isfinite(vertices))[0]
         value = vertices[row, axis]
         raise MeshError(f"vertex {row}: {'xyz'[axis]} is {value}, which cannot be quantised")
@@ -134,17 +135,14 @@ def _in_box(parts: list[Floats], bits: int) -> Iterator[Points]:
 
 
 def _box(parts: Sequence[Floats], bits: int) -> BoxLattice | None:
-    extremes = [
-        extreme(part, axis=0) for part in parts if len(part) for extreme in (np.min, np.max)
-    ]
+    extremes = [_kernels.bounds(part.reshape(-1)) for part in parts if len(part)]
     if not extremes:
         return None
     # Adding zero turns -0.0 into 0.0: which of the two an extreme is depends on the order.
-    low = np.min(extremes, axis=0).astype(np.float64) + 0.0
-    side = float((np.max(extremes, axis=0).astype(np.float64) - low).max()) + 0.0
-    if not np.isfinite(side):
-        return None
-    return BoxLattice(bits, (float(low[0]), float(low[1]), float(low[2])), side)
+    x, y, z = (min(lows) + 0.0 for lows in zip(*(low for low, _ in extremes), strict=True))
+    highs = (max(highs) for highs in zip(*(high for _, high in extremes), strict=True))
+    side = max(high - low for high, low in zip(highs, (x, y, z), strict=True)) + 0.0
+    return BoxLattice(bits, (x, y, z), side) if math.isfinite(side) else None
 
 
 def _within(coordinates: Floats, max_error: float) -> Points | None:

@@ -11,9 +11,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec import _kernels
+
 Floats = npt.NDArray[Any]
 Integers = npt.NDArray[np.int64]
+Origin = tuple[float, float, float]
 
+NO_ORIGIN = (0.0, 0.0, 0.0)
 MAX_BITS = 30
 MAX_MULTIPLE = 2.0**40
 MAX_DIGITS = {4: 10, 8: 15}
@@ -56,7 +60,7 @@ class BoxLattice:
     """2^bits points along the longest side of the bounding box, starting at its lower corner."""
 
     bits: int
-    origin: tuple[float, float, float]
+    origin: Origin
     side: float
     kind = "box"
 
@@ -66,12 +70,10 @@ class BoxLattice:
         return self.side / ((1 << self.bits) - 1)
 
     def integers(self, coordinates: Floats) -> Integers:
-        offsets = coordinates.astype(np.float64) - np.array(self.origin)
-        return _to_integers(offsets / self.step if self.step else np.zeros_like(offsets))
+        return _multiples(coordinates, self.origin, self.step)
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
-        moved: Floats = np.array(self.origin) + integers * self.step
-        return moved.astype(dtype)
+        return _from_multiples(integers, self.origin, self.step, dtype)
 
 
 @dataclass(frozen=True)
@@ -88,10 +90,10 @@ class StepLattice:
         return 2 * self.max_error * (1 - 2.0**-12)
 
     def integers(self, coordinates: Floats) -> Integers:
-        return _to_integers(coordinates.astype(np.float64) / self.step)
+        return _multiples(coordinates, NO_ORIGIN, self.step)
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
-        return (integers * self.step).astype(dtype)
+        return _from_multiples(integers, NO_ORIGIN, self.step, dtype)
 
 
 @dataclass(frozen=True)
@@ -101,24 +103,21 @@ class GridLattice:
     Whether a coordinate is an exception depends on the coordinate alone.
     """
 
-    origin: tuple[float, float, float]
+    origin: Origin
     step: float
     kind = "grid"
 
     def integers(self, coordinates: Floats) -> Integers:
-        return _to_integers(self._multiples(coordinates))
+        return _multiples(coordinates, self.origin, self.step)
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
-        moved: Floats = np.array(self.origin) + integers * self.step
-        return moved.astype(dtype)
+        return _from_multiples(integers, self.origin, self.step, dtype)
 
     def reaches(self, coordinates: Floats) -> npt.NDArray[np.bool_]:
         """Which coordinates are few enough steps from the origin to have an integer."""
-        return np.abs(self._multiples(coordinates)) <= MAX_MULTIPLE
-
-    def _multiples(self, coordinates: Floats) -> npt.NDArray[np.float64]:
-        multiples: npt.NDArray[np.float64] = coordinates.astype(np.float64) - np.array(self.origin)
-        return multiples / self.step
+        offsets = coordinates.astype(np.float64) - np.array(self.origin)
+        inside: npt.NDArray[np.bool_] = np.abs(offsets / self.step) <= MAX_MULTIPLE
+        return inside
 
 
 Lattice = FloatLattice | DecimalLattice | BoxLattice | StepLattice | GridLattice
@@ -146,6 +145,19 @@ def restore(points: Points, dtype: np.dtype[Any], exact: Floats) -> Floats:
     """The (n, 3) coordinates that decoding yields; `exact` holds the exceptions in order."""
     coordinates = points.lattice.coordinates(points.integers, dtype)
     coordinates.reshape(-1)[points.exceptions] = exact
+    return coordinates
+
+
+def _multiples(coordinates: Floats, origin: Origin, step: float) -> Integers:
+    multiples = _kernels.to_multiples(coordinates.reshape(-1), origin, step)
+    return multiples.reshape(coordinates.shape)
+
+
+def _from_multiples(
+    integers: Integers, origin: Origin, step: float, dtype: np.dtype[Any]
+) -> Floats:
+    coordinates = np.empty(integers.shape, dtype)
+    _kernels.from_multiples(integers.reshape(-1), origin, step, coordinates.reshape(-1))
     return coordinates
 
 

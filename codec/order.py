@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.connectivity import Int32s, Int64s, OutputOrder, number_by_first_use
+from ebz.codec.connectivity import Int32s, Int64s, OutputOrder
 from ebz.codec.errors import CorruptError, corrupt_at
 
 Array = npt.NDArray[Any]
@@ -51,6 +51,11 @@ class OrderStreams:
     faces: bytes | None = None
     rotations: bytes | None = None
 
+    @property
+    def any(self) -> bool:
+        """Whether anything is kept."""
+        return self != OrderStreams()
+
 
 @dataclass(frozen=True)
 class SourceOrder:
@@ -60,9 +65,14 @@ class SourceOrder:
     rotations: (m,) which corner of each face of the output is first in the source.
     """
 
-    vertices: Int32s | None
-    faces: Int32s | None
-    rotations: Rotations | None
+    vertices: Int32s | None = None
+    faces: Int32s | None = None
+    rotations: Rotations | None = None
+
+    @property
+    def any(self) -> bool:
+        """Whether anything is kept."""
+        return self.vertices is not None or self.rotations is not None
 
     def place_vertices(self, values: Array) -> Array:
         """Values per vertex of the output, in the order of the source."""
@@ -222,7 +232,7 @@ class Known:
         """The vertices in the order in which the source's faces use them."""
         by_faces = SourceOrder(None, faces, rotations)
         corners = by_faces.place_corners(self.corners.reshape(-1, 3)).reshape(-1)
-        return corners[number_by_first_use(corners)[1]]
+        return _kernels.number_by_first_use(corners, self.n_vertices)[1]
 
 
 def _rotations_alone(known: Known, rotations: Rotations | None) -> bytes | None:

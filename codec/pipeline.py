@@ -26,7 +26,8 @@ from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
 from ebz.codec.mesh import Mesh
-from ebz.codec.order import SourceOrder
+from ebz.codec.order import OrderStreams, SourceOrder
+from ebz.codec.welding import Split
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4
@@ -103,7 +104,6 @@ def encode(
     report("attributes", 3, N_STAGES)
     keep_rotation = keeps_rotation(mesh.face_attributes)
     split = welding.split(surface, arrangement.splits, len(stored))
-    known = source_order.Known(surface.opposite, split.vertex, points.integers[split.site])
     kept = source_order.kept(order, keep_order=keep_order, keep_rotation=keep_rotation)
     sites = Sites(surface.opposite, split.vertex, stored[order.vertices], split.site)
     encoded = EncodedMesh(
@@ -121,19 +121,23 @@ def encode(
             splits=arrangement.splits,
             positions=stream if n_along else b"",
             points=free,
-            exception_rows=encode_columns(gaps(points.exceptions)),
+            exception_rows=_encode_rows(points.exceptions),
             exception_values=_encode_values(exact),
-            order=source_order.encode(kept, known),
+            order=_encode_order(kept, surface, split, points.integers),
         ),
         vertex_attributes=coding.encode(
             mesh.vertex_attributes, order.vertices, sites.by_vertex, attribute_precision
         ),
         face_attributes=coding.encode(
             mesh.face_attributes, order.faces, sites.by_face, attribute_precision
-        ),
+        )
+        if mesh.face_attributes
+        else [],
         corner_attributes=corners.encode(
             mesh.corner_attributes, order.all_corners, sites, attribute_precision
-        ),
+        )
+        if mesh.corner_attributes
+        else [],
         elements=rows.encode(mesh.elements, order.number_of, attribute_precision),
         metadata=metadata.encode(mesh.metadata),
     )
@@ -163,16 +167,14 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     integers = positions.decode(streams.positions, surface, n_along, encoded.method)
     with corrupt_at(encoded.place("points")):
         free = free_points.decode(streams.points, split.n_sites - n_along)
-    integers = np.concatenate([integers, free])
+    if len(free):
+        integers = np.concatenate([integers, free])
     report("lattice", 2, N_STAGES)
     with corrupt_at(encoded.place("exceptions")):
         points = Points(encoded.lattice, integers, _decode_exceptions(encoded, split.n_sites))
         exact = _decode_values(streams.exception_values, encoded)
-    vertices = lattice.restore(points, encoded.dtype, exact)
-    if streams.splits is not None:
-        vertices = vertices[split.site]
+    vertices = split.at_sites(lattice.restore(points, encoded.dtype, exact))
     report("attributes", 3, N_STAGES)
-    known = source_order.Known(surface.opposite, split.vertex, integers[split.site])
     sites = Sites(surface.opposite, split.vertex, vertices, split.site)
     carried = Carried(
         coding.decode(encoded.vertex_attributes, sites.by_vertex),
@@ -181,13 +183,32 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         rows.decode(encoded.elements, n_vertices),
         _decode_metadata(encoded),
     )
-    mesh = _arranged(sites, source_order.decode(streams.order, known, place=encoded.place), carried)
+    mesh = _arranged(sites, _decode_order(encoded, surface, split, integers), carried)
     report("done", N_STAGES, N_STAGES)
     if digest(mesh) != encoded.digest:
         raise CorruptError(
             f"{encoded.place('digest')}: the digest of the decoded mesh is not the one stored"
         )
     return Decoded(mesh, word, surface)
+
+
+def _encode_order(
+    kept: SourceOrder, surface: Surface, split: Split, integers: lattice.Integers
+) -> OrderStreams:
+    if not kept.any:
+        return OrderStreams()
+    known = source_order.Known(surface.opposite, split.vertex, split.at_sites(integers))
+    return source_order.encode(kept, known)
+
+
+def _decode_order(
+    encoded: EncodedMesh, surface: Surface, split: Split, integers: lattice.Integers
+) -> SourceOrder:
+    streams = encoded.streams.order
+    if not streams.any:
+        return SourceOrder()
+    known = source_order.Known(surface.opposite, split.vertex, split.at_sites(integers))
+    return source_order.decode(streams, known, place=encoded.place)
 
 
 def _decode_metadata(encoded: EncodedMesh) -> dict[str, Any]:
@@ -197,6 +218,10 @@ def _decode_metadata(encoded: EncodedMesh) -> dict[str, Any]:
 
 def _silent(stage: str, done: int, total: int) -> None:
     pass
+
+
+def _encode_rows(rows: npt.NDArray[np.int64]) -> bytes:
+    return encode_columns(gaps(rows)) if len(rows) else b""
 
 
 def _encode_values(exact: lattice.Floats) -> bytes:
@@ -211,6 +236,8 @@ def _decode_values(data: bytes, encoded: EncodedMesh) -> lattice.Floats:
 
 
 def _decode_exceptions(encoded: EncodedMesh, n_vertices: int) -> npt.NDArray[np.int64]:
+    if not encoded.n_exceptions:
+        return np.zeros(0, np.int64)
     (gap,) = decode_columns(encoded.streams.exception_rows, encoded.n_exceptions, 1)
     rows = from_gaps(gap)
     if (np.diff(rows, prepend=-1) <= 0).any() or (rows >= 3 * n_vertices).any():
@@ -222,8 +249,8 @@ def _restored(mesh: Mesh, order: OutputOrder, kept: SourceOrder, sites: Sites) -
     """The mesh as decoding will yield it."""
     carried = Carried(
         _taken(mesh.vertex_attributes, order.vertices),
-        _taken(mesh.face_attributes, order.faces),
-        _taken(mesh.corner_attributes, order.all_corners),
+        _taken(mesh.face_attributes, order.faces) if mesh.face_attributes else {},
+        _taken(mesh.corner_attributes, order.all_corners) if mesh.corner_attributes else {},
         rows.renumbered(mesh.elements, order.number_of),
         mesh.metadata,
     )

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.connectivity import Int32s, Int64s, OutputOrder, Surface, number_by_first_use
+from ebz.codec.connectivity import Int32s, Int64s, OutputOrder, Surface
 from ebz.codec.errors import CorruptError
 
 
@@ -49,15 +49,17 @@ def arrange(
     if welded is faces:
         return Arrangement(surface.vertex, order.vertices, order.vertices, None)
     source = faces.reshape(-1)[order.all_corners]
-    vertex, is_first = number_by_first_use(source)
-    n_sites = _n_sites(surface)
+    vertex, firsts = _kernels.number_by_first_use(
+        source.astype(np.int32, copy=False), len(order.vertices)
+    )
+    n_sites = surface.n_vertices
     isolated = np.ones(len(order.vertices), bool)
     isolated[source] = False
     unused = np.flatnonzero(isolated)
     splits = _kernels.encode_splits(surface.opposite, surface.vertex, n_sites, vertex)
     return Arrangement(
         vertex,
-        np.concatenate([source[is_first], unused]),
+        np.concatenate([firsts, unused]),
         np.concatenate([order.vertices[:n_sites], unused]),
         splits,
     )
@@ -65,30 +67,33 @@ def arrange(
 
 @dataclass(frozen=True)
 class Split:
-    """The decoder's side: the vertex of each corner, and the coded site of each vertex."""
+    """The decoder's side: the vertex of each corner, and the coded site of each vertex.
+
+    site: (n,), None where each vertex is the site of its number.
+    """
 
     vertex: Int32s
-    site: Int64s
+    site: Int64s | None
+    n_sites: int
 
-    @property
-    def n_sites(self) -> int:
-        return int(self.site.max(initial=-1)) + 1
+    def at_sites(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Values per site, for each vertex."""
+        return values if self.site is None else values[self.site]
 
 
 def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
     """Which vertex each corner has; raises CorruptError where there are more than n_vertices."""
-    n_sites = _n_sites(surface)
-    vertex, site = surface.vertex, np.arange(n_sites)
+    n_sites, n_used = surface.n_vertices, surface.n_vertices
+    vertex, site = surface.vertex, None
     if splits is not None:
         data = np.frombuffer(splits, np.uint8)
         vertex = _kernels.decode_splits(data, surface.opposite, surface.vertex, n_sites)
-        site = np.zeros(int(vertex.max(initial=-1)) + 1, np.int64)
-        site[vertex] = surface.vertex
-    n_isolated = n_vertices - len(site)
+        n_used = int(vertex.max(initial=-1)) + 1
+    n_isolated = n_vertices - n_used
     if n_isolated < 0:
         raise CorruptError(f"more vertices than the {n_vertices} declared")
-    return Split(vertex, np.concatenate([site, n_sites + np.arange(n_isolated)]))
-
-
-def _n_sites(surface: Surface) -> int:
-    return surface.n_vertices
+    if splits is not None:
+        site = np.zeros(n_vertices, np.int64)
+        site[vertex] = surface.vertex
+        site[n_used:] = n_sites + np.arange(n_isolated)
+    return Split(vertex, site, n_sites + n_isolated)

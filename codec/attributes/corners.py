@@ -13,7 +13,7 @@ from ebz.codec.attributes import coding
 from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items, Sites
 from ebz.codec.attributes.precision import AttributePrecision
-from ebz.codec.connectivity import Int32s, number_by_first_use
+from ebz.codec.connectivity import Int32s
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import corrupt_at
 
@@ -46,7 +46,7 @@ def _encode(bundle: Bundle, sites: Sites, precision: AttributePrecision) -> Enco
 
 
 def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:
-    wedge = number_by_first_use(sites.vertex)[0]
+    wedge, _ = _kernels.number_by_first_use(sites.vertex, sites.n_vertices)
     if array.seams:
         data = np.frombuffer(array.seams, np.uint8)
         with corrupt_at(array.place):
@@ -66,4 +66,6 @@ def _wedges(values: npt.NDArray[Any], vertex: Int32s) -> tuple[Int32s, npt.NDArr
         [np.ascontiguousarray(vertex).view(np.uint8).reshape(n, 4), keys], axis=1
     )
     rows = np.ascontiguousarray(columns).view(np.dtype((np.void, columns.shape[1])))[:, 0]
-    return number_by_first_use(np.unique(rows, return_inverse=True)[1].astype(np.int32))
+    kinds = np.unique(rows, return_inverse=True)[1].astype(np.int32)
+    wedge, _ = _kernels.number_by_first_use(kinds, len(kinds))
+    return wedge, np.diff(np.maximum.accumulate(wedge), prepend=-1) > 0

@@ -20,13 +20,13 @@ class Sites:
 
     opposite, vertex: (3m,) the half-edge across, and the vertex of each corner.
     vertices: (n, 3) float32 or float64, as decoded.  site: (n,) that of each vertex: those of one
-    site have the same coordinates.
+    site have the same coordinates; None where each has its own.
     """
 
     opposite: Int32s
     vertex: Int32s
     vertices: npt.NDArray[Any]
-    site: npt.NDArray[Any]
+    site: npt.NDArray[Any] | None
 
     @property
     def n_vertices(self) -> int:
@@ -97,7 +97,8 @@ class Items:
         """(n,) entries of one site are at one place; nothing where none are."""
         if self.sites is None or not len(self.at):
             return NOTHING
-        site = self.sites.site[self.at].astype(np.int32)
+        numbers = self.sites.site
+        site = (self.at if numbers is None else numbers[self.at]).astype(np.int32)
         return site if int(site.max()) + 1 < len(site) else NOTHING
 
 

@@ -11,7 +11,10 @@
 #include <emmintrin.h>
 #endif
 
+#include "instruction_set.hpp"
+
 namespace ebz {
+inline namespace EBZ_INSTRUCTIONS {
 
 struct Share {
     uint16_t start, frequency;
@@ -51,6 +54,13 @@ public:
 
     // The symbol that owns slot < 2^15.
     uint32_t find(uint32_t slot) const {
+#ifdef EBZ_AVX2
+        if constexpr (n == 16) {
+            const __m256i row = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(starts_.data()));
+            const __m256i above = _mm256_cmpgt_epi16(row, _mm256_set1_epi16(static_cast<int16_t>(slot)));
+            return static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(_mm256_movemask_epi8(above)))) / 2 - 1;
+        }
+#endif
 #ifdef __SSE2__
         const __m128i at = _mm_set1_epi16(static_cast<int16_t>(slot));
         const auto* row = reinterpret_cast<const __m128i*>(starts_.data());
@@ -69,6 +79,15 @@ public:
     void learn(uint32_t symbol) {
         const int rate = rates[n_seen_];
         n_seen_ = static_cast<uint8_t>(std::min<int>(n_seen_ + 1, max_seen));
+#ifdef EBZ_AVX2
+        if constexpr (n == 16) {
+            auto* row = reinterpret_cast<__m256i*>(starts_.data());
+            const __m256i old = _mm256_loadu_si256(row);
+            const __m256i target = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(targets[symbol].data()));
+            const __m256i change = _mm256_sra_epi16(_mm256_sub_epi16(target, old), _mm_cvtsi32_si128(rate));
+            return _mm256_storeu_si256(row, _mm256_add_epi16(old, change));
+        }
+#endif
 #ifdef __SSE2__
         auto* row = reinterpret_cast<__m128i*>(starts_.data());
         const auto* target = reinterpret_cast<const __m128i*>(targets[symbol].data());
@@ -131,4 +150,5 @@ private:
     uint8_t n_seen_ = 0;
 };
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz

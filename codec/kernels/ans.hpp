@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "adaptive_symbol.hpp"
+#include "instruction_set.hpp"
 
 namespace ebz::ans {
+inline namespace EBZ_INSTRUCTIONS {
 
 // Between symbols a state is in [2^24, 2^56), and at the end 2^24; words of 32 bits go in and out.
 inline constexpr int least_bits = 24, word_bits = 32, state_bytes = 7;
@@ -189,4 +191,5 @@ private:
     std::array<uint64_t, n_lanes> states_;
 };
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::ans

@@ -9,4 +9,4 @@
 
 #define EBZ_INSTRUCTIONS avx2
 #define EBZ_AVX2
-#pragma GCC target("avx2")
+#pragma GCC target("avx2,bmi,bmi2")

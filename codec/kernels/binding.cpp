@@ -256,6 +256,53 @@ int decimal_digits(const Input<Float>& values, int max_digits, size_t max_misses
     return without_gil([&] { return ebz::decimal_digits(view(values), max_digits, max_misses); });
 }
 
+template <class T>
+using Output = nb::ndarray<T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Numbers3 = std::tuple<double, double, double>;
+
+ebz::Steps steps(const Numbers3& origin, double step) {
+    return {{std::get<0>(origin), std::get<1>(origin), std::get<2>(origin)}, step};
+}
+
+template <class Float>
+std::tuple<Numbers3, Numbers3> bounds(const Input<Float>& coordinates) {
+    const auto b = without_gil([&] { return ebz::bounds(view(coordinates)); });
+    return {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+}
+
+template <class Float>
+Array<int64_t> to_multiples(const Input<Float>& coordinates, const Numbers3& origin, double step) {
+    return to_numpy(without_gil([&] {
+        std::vector<int64_t> multiples(coordinates.size());
+        ebz::to_multiples(view(coordinates), steps(origin, step), multiples);
+        return multiples;
+    }));
+}
+
+template <class Float>
+void from_multiples(const Input<int64_t>& multiples, const Numbers3& origin, double step,
+                    const Output<Float>& coordinates) {
+    without_gil([&] {
+        const std::span<Float> filled(coordinates.data(), std::min(coordinates.size(), multiples.size()));
+        ebz::from_multiples(view(multiples).first(filled.size()), steps(origin, step), filled);
+    });
+}
+
+template <class Float>
+void bind_lattices(nb::module_& m) {
+    m.def("bounds", &bounds<Float>, "coordinates"_a,
+          "The least and the greatest of each axis, infinite where some are not finite.");
+    m.def("to_multiples", &to_multiples<Float>, "coordinates"_a, "origin"_a, "step"_a,
+          "The nearest integers to (x - origin) / step.");
+    m.def("from_multiples", &from_multiples<Float>, "multiples"_a, "origin"_a, "step"_a, "coordinates"_a,
+          "Fills coordinates with origin + step * integer.");
+}
+
+std::tuple<Array<int32_t>, Array<int32_t>> number_by_first_use(const Input<int32_t>& entries, int32_t n_items) {
+    ebz::Numbered numbered = without_gil([&] { return ebz::number_by_first_use(view(entries), n_items); });
+    return {to_numpy(std::move(numbered.number)), to_numpy(std::move(numbered.items))};
+}
+
 nb::bytes encode_integers(const Input<uint64_t>& values, size_t n_columns) {
     return to_bytes(without_gil([&] { return ebz::encode_integers(view(values), n_columns); }));
 }
@@ -397,6 +444,10 @@ NB_MODULE(_kernels, m) {
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
           "The fewest decimals that all values but max_misses have, -1 if there are too many.");
+    bind_lattices<float>(m);
+    bind_lattices<double>(m);
+    m.def("number_by_first_use", &number_by_first_use, "entries"_a, "n_items"_a,
+          "The number of each entry's item, and the items by number.");
     m.def("encode_integers", &encode_integers, "values"_a, "n_columns"_a,
           "Rows of unsigned integers, a model per column.");
     m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,

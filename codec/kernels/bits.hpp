@@ -8,7 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "instruction_set.hpp"
+
 namespace ebz {
+inline namespace EBZ_INSTRUCTIONS {
 
 inline constexpr int max_plain_bits = 57;  // at once: the rest of a byte and they fit 64
 
@@ -59,4 +62,5 @@ private:
     size_t last_, at_ = 0;
 };
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz

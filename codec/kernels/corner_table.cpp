@@ -38,4 +38,18 @@ Fans number_fans(std::span<const Index> opposite) {
     return fans;
 }
 
+Numbered number_by_first_use(std::span<const Index> entries, Index n_items) {
+    Numbered numbered{std::vector<Index>(entries.size()), {}};
+    std::vector<Index> known(static_cast<size_t>(n_items), none);
+    for (size_t i = 0; i < entries.size(); ++i) {
+        Index& number = known[entries[i]];
+        if (number == none) {
+            number = static_cast<Index>(numbered.items.size());
+            numbered.items.push_back(entries[i]);
+        }
+        numbered.number[i] = number;
+    }
+    return numbered;
+}
+
 }  // namespace ebz

@@ -33,4 +33,12 @@ struct Connectivity {
 // opposite must be an involution without fixed points.
 Fans number_fans(std::span<const Index> opposite);
 
+struct Numbered {
+    std::vector<Index> number;  // of each entry's item
+    std::vector<Index> items;   // by number
+};
+
+// Numbers items by first use; entries: items in [0, n_items).
+Numbered number_by_first_use(std::span<const Index> entries, Index n_items);
+
 }  // namespace ebz

@@ -10,7 +10,8 @@ std::atomic<bool> extensions_forbidden = false;
 
 bool has_avx2() {
 #ifdef EBZ_HAS_AVX2
-    return __builtin_cpu_supports("avx2") != 0;
+    // All machines with AVX2 have the other two, but some emulators.
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
 #else
     return false;
 #endif

@@ -1,6 +1,7 @@
 #include "lattices.hpp"
 
 #include <bit>
+#include <limits>
 #include <type_traits>
 
 namespace ebz {
@@ -43,6 +44,57 @@ int decimal_digits(std::span<const Float> values, int max_digits, size_t max_mis
     return -1;
 }
 
+template <class Float>
+std::array<double, 6> bounds(std::span<const Float> coordinates) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<Float, 3> low, high;
+    low.fill(std::numeric_limits<Float>::infinity());
+    high.fill(-std::numeric_limits<Float>::infinity());
+    std::array<Float, 3> poison{};  // NaN from the first value on that is not finite
+    for (size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const Float x = coordinates[i + axis];
+            low[axis] = x < low[axis] ? x : low[axis];
+            high[axis] = x > high[axis] ? x : high[axis];
+            poison[axis] += x * 0;
+        }
+    }
+    std::array<double, 6> all{-infinity, -infinity, -infinity, infinity, infinity, infinity};
+    if (poison[0] + poison[1] + poison[2] != 0) return all;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        all[axis] = static_cast<double>(low[axis]);
+        all[axis + 3] = static_cast<double>(high[axis]);
+    }
+    return all;
+}
+
+template <class Float>
+void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::span<int64_t> multiples) {
+    for (size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double x = (static_cast<double>(coordinates[i + axis]) - steps.origin[axis]) / steps.step;
+            const bool inside = x >= -max_multiple && x <= max_multiple;
+            multiples[i + axis] = static_cast<int64_t>(round_to_integer(inside ? x : 0));
+        }
+    }
+}
+
+template <class Float>
+void from_multiples(std::span<const int64_t> multiples, const Steps& steps, std::span<Float> coordinates) {
+    for (size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double x = steps.origin[axis] + static_cast<double>(multiples[i + axis]) * steps.step;
+            coordinates[i + axis] = static_cast<Float>(x);
+        }
+    }
+}
+
+template std::array<double, 6> bounds(std::span<const float>);
+template std::array<double, 6> bounds(std::span<const double>);
+template void to_multiples(std::span<const float>, const Steps&, std::span<int64_t>);
+template void to_multiples(std::span<const double>, const Steps&, std::span<int64_t>);
+template void from_multiples(std::span<const int64_t>, const Steps&, std::span<float>);
+template void from_multiples(std::span<const int64_t>, const Steps&, std::span<double>);
 template int decimal_digits(std::span<const float>, int, size_t);
 template int decimal_digits(std::span<const double>, int, size_t);
 

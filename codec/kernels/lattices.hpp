@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <array>
+#include <cstdint>
 #include <span>
 
 namespace ebz {
@@ -13,5 +15,22 @@ inline constexpr double max_multiple = 1099511627776.0;  // 2^40
 // correctly rounded to their type, bit for bit; -1 if there is none.
 template <class Float>
 int decimal_digits(std::span<const Float> values, int max_digits, size_t max_misses);
+
+// The least and the greatest value of each axis; all infinite where some value is not finite.
+template <class Float>
+std::array<double, 6> bounds(std::span<const Float> coordinates);
+
+// A lattice of the points origin + step q.
+struct Steps {
+    std::array<double, 3> origin;
+    double step;
+};
+
+// The nearest multiples, halves to even; 0 for what is none of magnitude up to max_multiple.
+template <class Float>
+void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::span<int64_t> multiples);
+
+template <class Float>
+void from_multiples(std::span<const int64_t> multiples, const Steps& steps, std::span<Float> coordinates);
 
 }  // namespace ebz

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import connectivity, order
+from ebz.codec import _kernels, connectivity, order
 from ebz.codec.errors import CorruptError
 from ebz.codec.sample import grid, random_triangulation, sphere, torus
 from tests import surgery
@@ -94,7 +94,7 @@ def test_regular_orders_cost_next_to_nothing(make):
 def test_first_use_tells_the_vertices_from_the_faces():
     mesh = random_triangulation(3000)
     faces = mesh.faces[np.random.default_rng(0).permutation(len(mesh.faces))]
-    number, _ = connectivity.number_by_first_use(faces.reshape(-1))
+    number, _ = _kernels.number_by_first_use(faces.reshape(-1), int(faces.max()) + 1)
     mesh = ebz.Mesh(np.arange(9000.0).reshape(-1, 3), number.reshape(-1, 3))
     streams = {
         stream.name: stream.bytes

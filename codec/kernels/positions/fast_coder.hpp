@@ -17,10 +17,12 @@
 #include "../adaptive_symbol.hpp"
 #include "../ans.hpp"
 #include "../bits.hpp"
+#include "fast.hpp"
 #include "residual_digits.hpp"
 #include "surface.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 // A stream: the size of the symbols' part in 4 bytes, that part, the plain bits.
 struct FastEncoder {
@@ -31,10 +33,9 @@ struct FastEncoder {
 
     std::vector<uint8_t> finish() {
         const std::vector<uint8_t> first = symbols.finish(), second = plain.finish();
-        std::vector<uint8_t> bytes(4);
+        std::vector<uint8_t> bytes(4 + first.size() + second.size());
         for (size_t i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(first.size() >> (8 * i));
-        bytes.insert(bytes.end(), first.begin(), first.end());
-        bytes.insert(bytes.end(), second.begin(), second.end());
+        std::copy(second.begin(), second.end(), std::copy(first.begin(), first.end(), bytes.begin() + 4));
         return bytes;
     }
 };
@@ -74,7 +75,7 @@ public:
         std::array<int, 3> shifts;
         for (size_t d = 0; d < 3; ++d) {
             const uint32_t x = expected[d];
-            shifts[d] = x > centre ? static_cast<int>(x - centre) / 2 : 0;
+            shifts[d] = static_cast<int>(std::max(x, centre) - centre) / 2;
             rows[d] = &rows_[d][kind][std::min<size_t>(x, n_expected - 1)];
             if constexpr (Coder::encoding) tokens[d] = residual_token(magnitude(e[d]), shifts[d]);
         }
@@ -226,8 +227,7 @@ void code_positions_fast(Coder& coder, const Surface& mesh, std::span<FastVertex
     std::make_unique<FastCoder<Coder>>(coder, mesh, vertices)->run();
 }
 
-// Nothing where a value has more than 32 bits.
-inline std::vector<uint8_t> encode_positions_fast(const Surface& mesh, std::span<const int64_t> values) {
+std::vector<uint8_t> encode_fast(const Surface& mesh, std::span<const int64_t> values) {
     std::vector<FastVertex> vertices(values.size() / 3);
     bool fits = true;
     for (size_t i = 0; i < values.size(); ++i) {
@@ -241,11 +241,12 @@ inline std::vector<uint8_t> encode_positions_fast(const Surface& mesh, std::span
     return coder.finish();
 }
 
-inline void decode_positions_fast(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
+void decode_fast(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
     std::vector<FastVertex> vertices(values.size() / 3);
     FastDecoder coder(bytes);
     code_positions_fast(coder, mesh, vertices);
     for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int32_t>(vertices[i / 3].position[i % 3]);
 }
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

@@ -2,7 +2,7 @@
 
 #include "../ans.hpp"
 #include "../range_coder.hpp"
-#include "fast_coder.hpp"
+#include "fast.hpp"
 #include "float_coder.hpp"
 #include "light_coder.hpp"
 #include "strong.hpp"

@@ -2,20 +2,23 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "../ans.hpp"
+#include "../instruction_set.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
 // Half-octaves: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, ...
 inline uint32_t half_octave(uint64_t a) {
-    if (a < 2) return static_cast<uint32_t>(a);
-    const int top = 63 - std::countl_zero(a);
-    return 2 * static_cast<uint32_t>(top) + (static_cast<uint32_t>(a >> (top - 1)) & 1);
+    const int top = 63 - std::countl_zero(a | 1);
+    // Without a branch: small ones are as good as random.
+    return 2 * static_cast<uint32_t>(top) + (static_cast<uint32_t>(2 * a >> top) & 1) + (a == 1);
 }
 
 // The token of all magnitudes that are too large for one of their own.
@@ -24,8 +27,11 @@ inline constexpr int max_shift = 50;  // digits and all stay below 2^64
 
 inline uint32_t residual_token(uint64_t a, int shift) { return std::min(half_octave(a >> shift), escape_token); }
 
-inline int n_low_digits(uint32_t token, int shift) { return (token < 4 ? 0 : static_cast<int>(token) / 2 - 1) + shift; }
-inline uint64_t leading_digits(uint32_t token) { return token < 4 ? token : 2 + (token & 1); }
+inline constexpr std::array<uint8_t, 16> digits_below = {0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6};
+inline constexpr std::array<uint8_t, 16> leading = {0, 1, 2, 3, 2, 3, 2, 3, 2, 3, 2, 3, 2, 3, 2, 3};
+
+inline int n_low_digits(uint32_t token, int shift) { return digits_below[token] + shift; }
+inline uint64_t leading_digits(uint32_t token) { return leading[token]; }
 
 inline int64_t with_sign(uint64_t a, uint64_t negative) { return static_cast<int64_t>((a ^ (0 - negative)) + negative); }
 
@@ -66,4 +72,5 @@ int64_t code_large(Coder& coder, size_t lane, int64_t e) {
     return static_cast<int64_t>(decoded >> 1 ^ (0 - (decoded & 1)));
 }
 
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

@@ -1,0 +1,2 @@
+// The fast method for the baseline.
+#include "fast_coder.hpp"
