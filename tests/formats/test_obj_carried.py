@@ -1,12 +1,13 @@
 """OBJ: corners, statements, lines and points, and where they are written."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from ebz.codec.elements import Element
-from ebz.codec.errors import DroppedWarning
+from ebz.codec.errors import DroppedWarning, EbzError
 from ebz.codec.mesh import Mesh
 from ebz.formats.meshes import read_mesh, write_mesh
 from tests.formats.carried import contents, row_set
@@ -227,3 +228,26 @@ def test_colours_may_have_an_alpha() -> None:
     mesh = obj(text)
     assert mesh.vertex_attributes["rgba"][0].tolist() == [0.5, 0, 1, 0.25]
     assert write_mesh(mesh, "obj").decode() == text
+
+
+def test_every_prefix_and_a_flipped_bit_of_every_byte_is_an_error_or_comes_back() -> None:
+    data = SAMPLE.read_bytes()
+    damaged = [data[:end] for end in range(len(data))]
+    for at in range(len(data)):
+        flipped = bytearray(data)
+        flipped[at] ^= 1 << at % 8
+        damaged.append(bytes(flipped))
+    n_read = 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DroppedWarning)
+        for case in damaged:
+            try:
+                mesh = read_mesh(case, format="obj")
+            except EbzError as error:
+                assert str(error)
+                continue
+            again = read_mesh(write_mesh(mesh, "obj"), format="obj")
+            assert contents(again) == contents(mesh)
+            assert again.metadata == mesh.metadata
+            n_read += 1
+    assert 0 < n_read < len(damaged)
