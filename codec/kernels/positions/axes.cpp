@@ -67,7 +67,7 @@ void Axes::expect(size_t turn, Expectation& x) {
 // Factors from a standard deviation or a mean magnitude to the scale of a logistic distribution.
 void Axes::set_distributions(size_t d, Expectation& x) const {
     const auto base = static_cast<double>(base_[d]);
-    const double sigma = std::sqrt(std::max(covariance_[d][d], 1e-3)), error = p_->error[d] * 0.48 + 0.12;
+    const double sigma = sigma_, error = p_->error[d] * 0.48 + 0.12;
     const double sharper = std::clamp(p_->refined_size / (p_->size + 0.01), 0.1, 4.0);
     const auto set = [&](size_t i, double mean, double scale) {
         x.mean[i] = static_cast<float>(mean - base);
@@ -80,8 +80,8 @@ void Axes::set_distributions(size_t d, Expectation& x) const {
     for (size_t i = 4; i < 8; ++i) set(i, base, 1.0);
 }
 
-void Axes::set_sizes(size_t d, Expectation& x) const {
-    const double sigma = std::sqrt(std::max(covariance_[d][d], 1e-3));
+void Axes::set_sizes(size_t d, Expectation& x) {
+    const double sigma = sigma_ = std::sqrt(std::max(covariance_[d][d], 1e-3));
     const int level = level_of(sigma);
     x.shift = std::max(0, (level - 18) / 2);
     x.level = std::min(level - 2 * x.shift, 22) / 2;
@@ -119,83 +119,81 @@ uint32_t Axes::exactness(size_t d) const {
 }
 
 void Axes::set_values(size_t turn, Expectation& x) {
-    const Nearest& near = nearest_;
     const size_t d = p_->axes[turn];
-    uint32_t first = 0, second = 0, most = 1;
-    double best_distance = 0;
-    int64_t matching = 0;  // of the neighbour that agreed most so far
+    uint32_t first = 0, second = 0;
     for (size_t i = 0; i < static_cast<size_t>(s_->n_neighbours); ++i) {
-        const uint32_t agrees = agreement(turn, s_->neighbour_offset[i]);
-        const int64_t at = s_->neighbour_offset[i][d], off = wrapping_difference(at, base_[d]);
-        if (off == near.first) first = std::max(first, agrees);
-        if (off == near.second) second = std::max(second, agrees);
-        if (agrees < 2 || agrees < most) continue;
-        const double distance = std::fabs(static_cast<double>(at) - refined_mean_[d]);
-        if (agrees > most || distance < best_distance) {
-            most = agrees;
-            best_distance = distance;
-            matching = off;
-        }
+        const int64_t off = wrapping_difference(s_->neighbour_offset[i][d], base_[d]);
+        if (off == nearest_.first) first = std::max(first, agreement(turn, s_->neighbour_offset[i]));
+        if (off == nearest_.second) second = std::max(second, agreement(turn, s_->neighbour_offset[i]));
     }
     const uint32_t exact = exactness(d);
-    add_value(x, 0, near.first, exact + 16 * first);
-    if (near.has_second) add_value(x, 1, near.second, exact + 16 * second);
-    for (size_t i = 0; i < 3 && i < static_cast<size_t>(s_->n_parallelograms); ++i) {
+    add_value(x, 0, nearest_.first, exact + 16 * first);
+    if (nearest_.has_second) add_value(x, 1, nearest_.second, exact + 16 * second);
+    for (size_t i = 0; i < 2 && i < static_cast<size_t>(s_->n_parallelograms); ++i) {
         const Offset& tip = s_->parallelograms[i].tip;
         add_value(x, 2 + i, wrapping_difference(tip[d], base_[d]), exact + 16 * agreement(turn, tip));
     }
-    if (most > 1) add_value(x, 5, matching, exact + 16 * most);
 }
 
-uint32_t Axes::codes(size_t neighbour) const {
-    if (neighbour >= static_cast<size_t>(s_->n_neighbours)) return 0xffffff;
-    const auto& c = predictor_.trace(s_->neighbours[neighbour]).code;
-    return static_cast<uint32_t>((c[0] + 64) << 16 | (c[1] + 64) << 8 | (c[2] + 64));
+// 0 where there is no such neighbour.
+uint32_t Axes::neighbour_value(size_t i, size_t d) const {
+    const bool there = i < static_cast<size_t>(s_->n_neighbours);
+    return there ? low_bits(wrapping_sum(s_->origin[d], s_->neighbour_offset[i][d])) : 0;
 }
 
-// The residual that followed the same residuals around it, and the value that went with the same
-// coordinates on earlier axes.
+// Circumstances in which a coordinate may come again: the same coordinates on earlier axes, the same
+// ones of neighbours on this axis, and some of both.
 void Axes::set_keys(size_t turn) {
-    const size_t d = p_->axes[turn];
-    const auto axis_and_turn = static_cast<uint32_t>(d * 4 + turn);
-    residual_key_ = hash(codes(0), codes(1), axis_and_turn, hash(low_bits(first_residual_), low_bits(last_residual_)));
-    const int64_t one = turn > 0 ? value(p_->axes[0]) : s_->origin[d], two = turn > 1 ? value(p_->axes[1]) : 0;
-    value_key_ = hash(axis_and_turn, low_bits(one), low_bits(two));
-    residual_recall_.prefetch(residual_key_);
-    value_recall_.prefetch(value_key_);
+    const size_t d = p_->axes[turn], before = turn > 0 ? p_->axes[turn - 1] : 0;
+    const auto axis = static_cast<uint32_t>(d), axis_and_turn = static_cast<uint32_t>(d * 4 + turn);
+    const auto axes = static_cast<uint32_t>(axis_and_turn * 4 + before);
+    const uint32_t origin = low_bits(s_->origin[d]), latest = turn > 0 ? low_bits(value(before)) : 0;
+    const uint32_t one = turn > 0 ? low_bits(value(p_->axes[0])) : origin, two = turn > 1 ? latest : 0;
+    const uint32_t second = neighbour_value(1, d), third = neighbour_value(2, d);
+    keys_[0] = hash(axis_and_turn, one, two);
+    keys_[1] = hash(axis, origin, second, 1);
+    keys_[2] = turn == 0 ? hash(axis, origin, second, third) : hash(axes, latest, turn == 1 ? origin : 0, 2);
+    for (size_t i = 0; i < n_recalls; ++i) recalls_[i].prefetch(keys_[i]);
 }
 
 void Axes::set_recalled(size_t turn, Expectation& x) {
     const size_t d = p_->axes[turn];
     const auto context = static_cast<uint32_t>(16 * turn);
-    if (const auto* r = residual_recall_.find(residual_key_)) add_value(x, 6, r->value, r->hits + context);
-    if (const auto* r = value_recall_.find(value_key_))
-        add_value(x, 7, wrapping_difference(r->value, base(d)), r->hits + context);
+    for (size_t i = 0; i < n_recalls; ++i) {
+        const Recall::Entry* r = recalls_[i].find(keys_[i]);
+        if (r != nullptr) add_value(x, 4 + i, wrapping_difference(r->value, base(d)), r->hits + context);
+        if (i == 0) along_axes_ = r;
+    }
+    if (along_axes_ == nullptr) return;
+    const int64_t mirrored = wrapping_difference(mirrors_[d].sum, along_axes_->value);
+    add_value(x, 7, wrapping_difference(mirrored, base(d)), mirrors_[d].hits + context);
+}
+
+// A value that was recalled as another on this axis may be its mirror image.
+void Axes::learn_mirror(size_t d) {
+    if (along_axes_ == nullptr || along_axes_->value == value(d)) return;
+    Mirror& mirror = mirrors_[d];
+    const int64_t sum = wrapping_sum(along_axes_->value, value(d));
+    mirror.hits = sum == mirror.sum ? std::min(mirror.hits + 1, Recall::max_hits) : 1;
+    mirror.sum = sum;
 }
 
 void Axes::set_contexts(size_t turn, Expectation& x) const {
-    const Nearest& near = nearest_;
     const size_t d = p_->axes[turn];
     const auto scaled = [&](double size) {
         return static_cast<uint32_t>(std::clamp(level_of(size) - 2 * x.shift, 0, 40));
     };
     const uint32_t t = static_cast<uint32_t>(turn), axis = static_cast<uint32_t>(d), exact = exactness(d);
     const uint32_t error = scaled(p_->error[d] + 0.25), spread = scaled(p_->spread[d]);
-    const uint32_t sigma = scaled(std::sqrt(std::max(covariance_[d][d], 1e-3)));
-    const uint32_t first = bucket(near.first, 20), second = near.has_second ? bucket(near.second, 20) : 50;
+    const uint32_t first = bucket(nearest_.first, 20), second = nearest_.has_second ? bucket(nearest_.second, 20) : 50;
     const int64_t e = first_residual_ >> x.shift;
-    const int64_t slide = rounded((plain_mean_[d] - p_->plain[d]) * 2);
-    const uint32_t near_code = static_cast<uint32_t>(predictor_.trace(s_->neighbours[0]).code[d] + 50);
     // Which slots of a context are in use depends on where the search for the class begins.
     const auto start = static_cast<uint32_t>(std::clamp(x.expected_class - x.shift + 8, 0, 15));
     x.context = {
-        hash(axis, first, 0, start),
         hash(spread, static_cast<uint32_t>(s_->n_parallelograms), 1, start),
         hash(first, second + 256 * axis, 2, start),
         hash(axis * 64 + error, spread / 2 + 32 * exact, 3, start),
-        hash(bucket(e, 40), near_code, axis * 16 + exact, start),
         hash(turn == 0 ? 7 : low_bits(value(p_->axes[0])), low_bits(s_->origin[d]), t, start),
-        hash(t * 32 + bucket(slide, 13), sigma, 6, start),
         hash(bucket(e, 2000), bucket(last_residual_ >> x.shift, 2000), t, start),
     };
 }
@@ -205,8 +203,8 @@ void Axes::reveal(size_t turn, int64_t e) {
     residual_[d] = e;
     value_[d] = wrapping_sum(base_[d], e);
     (turn == 0 ? first_residual_ : last_residual_) = e;
-    residual_recall_.learn(residual_key_, e);
-    value_recall_.learn(value_key_, value(d));
+    learn_mirror(d);
+    for (size_t i = 0; i < n_recalls; ++i) recalls_[i].learn(keys_[i], value(d));
     // The remaining axes, conditioned on this one.
     const auto at = static_cast<double>(value_[d]);
     const double off_plain = at - plain_mean_[d], off_refined = at - refined_mean_[d];

@@ -16,8 +16,6 @@ namespace ebz::positions {
 // The three axes of one vertex, in the order p.axes.
 class Axes {
 public:
-    explicit Axes(const Predictor& predictor) : predictor_(predictor) {}
-
     void begin(const Surroundings& s, const Prediction& p);
     void find_contexts(size_t turn, Expectation& x);
     void expect(size_t turn, Expectation& x);  // after find_contexts
@@ -33,27 +31,37 @@ private:
         bool has_second;
     };
 
+    // Sums of a coordinate and its mirror image, by the latest pair.
+    struct Mirror {
+        int64_t sum = 0;
+        uint32_t hits = 0;  // times in a row that the sum came again
+    };
+
     void set_distributions(size_t d, Expectation& x) const;
-    void set_sizes(size_t d, Expectation& x) const;
+    void set_sizes(size_t d, Expectation& x);
     Nearest nearest(size_t d) const;
     void set_values(size_t turn, Expectation& x);
-    void set_recalled(size_t turn, Expectation& x);
     void set_keys(size_t turn);
+    void set_recalled(size_t turn, Expectation& x);
+    void learn_mirror(size_t d);
     void set_contexts(size_t turn, Expectation& x) const;
     uint32_t agreement(size_t turn, const Offset& at) const;
     uint32_t exactness(size_t d) const;
-    uint32_t codes(size_t neighbour) const;
     int64_t value(size_t d) const { return wrapping_sum(s_->origin[d], value_[d]); }
+    uint32_t neighbour_value(size_t i, size_t d) const;
 
-    const Predictor& predictor_;
+    static constexpr size_t n_recalls = 3;
     const Surroundings* s_ = nullptr;
     const Prediction* p_ = nullptr;
-    Recall residual_recall_{14}, value_recall_{14};
-    uint32_t residual_key_ = 0, value_key_ = 0;
+    std::array<Recall, n_recalls> recalls_{Recall(14), Recall(14), Recall(14)};
+    std::array<uint32_t, n_recalls> keys_{};
+    std::array<Mirror, 3> mirrors_;  // by axis
+    const Recall::Entry* along_axes_ = nullptr;  // what the first recall found
 
     Point plain_mean_{}, refined_mean_{};  // shifted by what earlier axes revealed
     std::array<std::array<double, 3>, 3> covariance_{};
     Nearest nearest_{};
+    double sigma_ = 0;  // deviation of the axis under way
     Offset base_{}, residual_{}, value_{};  // base and value are relative to the surroundings' origin
     int64_t first_residual_ = 0, last_residual_ = 0;
 };

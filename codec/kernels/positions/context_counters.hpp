@@ -40,7 +40,7 @@ public:
     // Logits by the counters of a slot.
     WideLanes opinions(size_t slot) {
         const auto at = [&](size_t i) { return static_cast<int32_t>(line_[i]->counters[slot]); };
-        states_ = WideIntLanes{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
+        states_ = WideIntLanes{at(0), at(1), at(2), at(3), at(4), 0, 0, 0};
         return counter::opinion<WideLanes>(states_);
     }
 
@@ -53,7 +53,7 @@ public:
 
 private:
     static constexpr size_t n = Expectation::n_contexts;
-    static_assert(n == 8, "one vector");
+    static_assert(n == 5, "the lanes of states_");
 
     struct alignas(64) Line {  // two cache lines
         std::array<CounterState, n_slots> counters;

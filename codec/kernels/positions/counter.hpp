@@ -30,11 +30,17 @@ Floats p(IntsOf<Floats> state) {  // in units of 2^-22
     return __builtin_convertvector((state >> 10) & 0x3fffff, Floats);
 }
 
-// Logit, shrunk while few bits have been seen: by n / (n + 1.5).
+template <class Floats>
+Floats logit_of(IntsOf<Floats> state) {
+    const Floats one = p<Floats>(state) + 0.5f;
+    return log2_ratio(one, 4194304.5f - one);
+}
+
+// The logit, shrunk while few bits have been seen: by n / (n + 1.5).
 template <class Floats>
 Floats opinion(IntsOf<Floats> state) {
-    const Floats seen = __builtin_convertvector(n(state), Floats), one = p<Floats>(state) + 0.5f;
-    return (log2_approx(one) - log2_approx(4194304.5f - one)) * (seen / (seen + 1.5f));
+    const Floats seen = __builtin_convertvector(n(state), Floats);
+    return logit_of<Floats>(state) * (seen / (seen + 1.5f));
 }
 
 // After a bit in each lane, told by its target; an unseen context starts from what is expected (in units of 2^-22).

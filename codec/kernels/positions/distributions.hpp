@@ -24,13 +24,21 @@ public:
         // Lane by lane: wide loads would have to wait for narrow stores.
         const auto lanes = [](const auto& y) { return WideLanes{y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7]}; };
         sharpness_ = log2_e / lanes(x.scale);
-        const WideLanes centre = (lanes(x.mean) + 0.5f) * sharpness_;
-        positive_ = power(centre);
-        at_ = power(-centre);
+        centre_ = (lanes(x.mean) + 0.5f) * sharpness_;
+        positive_ = power(centre_);
+        at_ = power(-centre_);
         low_ = splat<WideLanes>(largest);
         high_ = WideLanes{};
-        first_step_ = std::max(x.expected_class - 4, 0);
+        first_step_ = std::max(x.expected_class - 3, 0);
         for (int i = 0; i < n_steps; ++i) steps_[static_cast<size_t>(i)] = step(first_step_ + i);
+    }
+
+    // Logits of the residual being e, before anything else; the last lane is a constant.
+    WideLanes odds_of(int64_t e) const {
+        const float from = static_cast<float>(e);
+        const WideLanes z = power(centre_ - from * sharpness_), z_next = power(centre_ - (from + 1.0f) * sharpness_);
+        const WideLanes inside = max(z - z_next, splat<WideLanes>(tiny));
+        return inputs(inside, max((1.0f + z) * (1.0f + z_next) - inside, splat<WideLanes>(tiny)));
     }
 
     // Which side was answered to the split at 0.
@@ -42,21 +50,24 @@ public:
 
     // Logits of the upper part; the last lane is a constant.
     WideLanes odds() const {
-        const WideLanes tiny = splat<WideLanes>(1e-30f), limit = splat<WideLanes>(max_logit);
-        const WideLanes upper = max(at_ - high_, tiny) * (1.0f + low_), lower = max(low_ - at_, tiny) * (1.0f + high_);
-        const WideLanes odds = max(min(log2_approx(upper) - log2_approx(lower), limit), -limit);
-        constexpr WideLanes constant = {0, 0, 0, 0, 0, 0, 0, 0.4f};
-        constexpr WideIntLanes given = {-1, -1, -1, -1, 0, 0, 0, 0};
-        return only(given, odds) + constant;
+        const WideLanes upper = max(at_ - high_, splat<WideLanes>(tiny)), lower = max(low_ - at_, splat<WideLanes>(tiny));
+        return inputs(upper * (1.0f + low_), lower * (1.0f + high_));
     }
 
     void take(bool upper) { (upper ? low_ : high_) = at_; }
 
 private:
-    static constexpr float log2_e = 1.442695f, max_logit = 11.0f;
+    static constexpr float log2_e = 1.442695f, max_logit = 11.0f, tiny = 1e-30f;
     // Of z: products stay normal.
     static constexpr float limit_log2 = 40.0f, largest = 0x1p40f, least = 0x1p-80f;
-    static constexpr int n_steps = 8;
+    static constexpr int n_steps = 6;
+
+    static WideLanes inputs(WideLanes yes, WideLanes no) {
+        const WideLanes limit = splat<WideLanes>(max_logit), odds = max(min(log2_ratio(yes, no), limit), -limit);
+        constexpr WideLanes constant = {0, 0, 0, 0, 0, 0, 0, 0.4f};
+        constexpr WideIntLanes given = {-1, -1, -1, -1, 0, 0, 0, 0};
+        return only(given, odds) + constant;
+    }
 
     static WideLanes power(WideLanes x) {
         const WideLanes limit = splat<WideLanes>(limit_log2);
@@ -74,7 +85,7 @@ private:
     }
 
     alignas(32) std::array<WideLanes, n_steps> steps_;
-    WideLanes sharpness_, positive_, zero_;
+    WideLanes centre_, sharpness_, positive_, zero_;
     WideLanes low_, at_, high_;  // z
     int first_step_ = 0;
 };

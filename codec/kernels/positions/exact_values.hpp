@@ -30,8 +30,16 @@ public:
         }
         present_ = x.values;
         alive_ = 0;
-        for (size_t i = 0; i < n; ++i) alive_ |= static_cast<unsigned>(*hit_[i] >= min_hits) << i;
-        alive_ &= present_;
+        CounterState most = 0;
+        for (size_t i = 0; i < n; ++i) {
+            const CounterState hits = (present_ >> i & 1) != 0 ? *hit_[i] : 0;
+            alive_ |= static_cast<unsigned>(hits >= min_hits) << i;
+            if (hits > most) {
+                most = hits;
+                likeliest_ = i;
+            }
+        }
+        likely_ = most >= sure_hits;
     }
 
     void take_side(bool negative) {
@@ -39,16 +47,24 @@ public:
         if (!negative) distance_ = value_;
     }
 
+    // Whether one value is all but certain.
+    bool may_hit() const { return likely_; }
+    int64_t likeliest() const { return value_[likeliest_]; }
+
     bool any() const { return alive_ != 0; }
 
     // Logits of the distance being at least `at`, by how often each value told it right.
     WideLanes split(int64_t at, size_t node) {
         upper_ = 0;
         for (size_t i = 0; i < n; ++i) upper_ |= static_cast<unsigned>(distance_[i] >= at) << i;
-        const auto state = [&](size_t i) { return static_cast<int32_t>((*nodes_[i])[node]); };
-        states_ = WideIntLanes{state(0), state(1), state(2), state(3), state(4), state(5), state(6), state(7)};
-        const WideLanes agrees = counter::opinion<WideLanes>(states_);
-        return only(lanes_of(alive_), lanes_of(upper_) != 0 ? agrees : -agrees);
+        return opinions(node);
+    }
+
+    // The same of the residual being the likeliest value.
+    WideLanes single_out(size_t node) {
+        upper_ = 0;
+        for (size_t i = 0; i < n; ++i) upper_ |= static_cast<unsigned>(value_[i] == value_[likeliest_]) << i;
+        return opinions(node);
     }
 
     // After the last split.
@@ -76,8 +92,16 @@ public:
 private:
     static constexpr size_t n = Expectation::n_values;
     static_assert(n == 8, "one vector");
+    static constexpr CounterState sure_hits = 0xE8000000u;  // 0.9: below, a decision of its own does not pay
     static constexpr CounterState min_hits = 1u << 26;  // 1/64: rarer ones do not pay
     static constexpr float expected_right = 0.75f * 4194304, expected_hit = 0.25f * 4194304;
+
+    WideLanes opinions(size_t node) {
+        const auto state = [&](size_t i) { return static_cast<int32_t>((*nodes_[i])[node]); };
+        states_ = WideIntLanes{state(0), state(1), state(2), state(3), state(4), state(5), state(6), state(7)};
+        const WideLanes agrees = counter::logit_of<WideLanes>(states_);
+        return only(lanes_of(alive_) & (counter::n(states_) != 0), lanes_of(upper_) != 0 ? agrees : -agrees);
+    }
 
     using Nodes = std::array<CounterState, n_nodes>;
 
@@ -88,6 +112,8 @@ private:
     std::array<int64_t, n> value_{}, distance_{};
     unsigned present_ = 0, alive_ = 0, upper_ = 0;  // a bit per value
     WideIntLanes states_{};
+    size_t likeliest_ = 0;
+    bool likely_ = false;
 };
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -89,6 +89,14 @@ Floats log2_approx(Floats x) {
     return __builtin_convertvector((bits >> 23) - 127, Floats) + part * (1.343f - 0.343f * part);
 }
 
+// log2(a / b) for normal a, b > 0, within 0.09: bit patterns are nearly logarithms.
+template <class Floats>
+Floats log2_ratio(Floats a, Floats b) {
+    using Ints = IntsOf<Floats>;
+    const Ints difference = reinterpret_cast<Ints>(a) - reinterpret_cast<Ints>(b);
+    return __builtin_convertvector(difference, Floats) * 0x1p-23f;
+}
+
 template <class Floats>
 Floats squash(Floats x) {
     return 1.0f / (1.0f + exp2_approx(-x));

@@ -59,7 +59,10 @@ inline constexpr auto probabilities = [] {
     return table;
 }();
 
-inline float probability(float logit) { return probabilities[static_cast<size_t>(static_cast<int32_t>(logit * 32.0f + 512.5f))]; }
+// Logits are within 16.
+inline float probability(float logit) {
+    return probabilities[static_cast<size_t>(static_cast<int32_t>(logit * 32.0f + 512.5f))];
+}
 
 // Secondary estimation: a curve of 33 knots over the logit per context, adapted to what happened.
 class Curve {

@@ -22,7 +22,7 @@ struct Trace {
     std::array<float, 3> residual;    // position - refined prediction
     float size, refined_size;         // sums over axes
     float normal_size, tangent_size;  // of the plain prediction's error
-    std::array<int8_t, 3> code;       // clamped coded residual
+    std::array<bool, 3> exact;        // the coded residual was zero
     bool coded;
 };
 

@@ -28,8 +28,7 @@ public:
     ResidualModel(Coder& coder, size_t n_vertices)
         : coder_(coder), contexts_(n_vertices), mixer_(n_nodes, n_nodes * 3 * n_levels), curve_(n_nodes * 3) {
         for (size_t node = 0; node < n_nodes; ++node) {
-            const size_t kind = node == side_node ? 0 : node < digit_node ? 1 : std::min<size_t>(2 + (node - digit_node) / 4, 4);
-            mixer_.start(node, initial_weights[kind]);
+            mixer_.start(node, initial_weights[std::min(node, initial_weights.size() - 1)]);
         }
     }
 
@@ -39,6 +38,11 @@ public:
     // Codes e and returns it; decoders pass anything.
     int64_t code(const Expectation& x, int64_t e) {
         start(x);
+        if (values_.may_hit() && hit(e)) {
+            const int64_t value = values_.likeliest();
+            values_.finish(value);
+            return value;
+        }
         const bool negative = split(0, side_node, side_slot, e < 0);
         take_side(negative);
         const int64_t a = negative ? ~e : e;
@@ -51,14 +55,15 @@ public:
 
 private:
     static constexpr size_t n_levels = 12, n_nodes = ExactValues::n_nodes;
-    static constexpr int n_mixed_digits = 2;  // deeper ones only if an exact value may tell them
 
     // Nodes of the decision tree, of weights; slots of the counters of one context.
-    static constexpr size_t side_node = 0, class_node = 1, digit_node = 8;
-    static constexpr size_t side_slot = 0, class_slot = 1, digit_slot = 15, n_slots = ContextCounters::n_slots;
+    static constexpr size_t side_node = 0, class_node = 1, digit_node = 8, hit_node = 24;
+    static constexpr size_t side_slot = 0, class_slot = 1, digit_slot = 15, hit_slot = 30;
+    static constexpr size_t n_slots = ContextCounters::n_slots;
 
     void start(const Expectation& x) {
         x_ = &x;
+        rate_ = 0.0021f * (1.0f + 4.0f / (1.0f + n_decisions_ * (1.0f / 10000.0f)));
         contexts_.start(x);
         distributions_.start(x);
         values_.start(x);
@@ -73,11 +78,25 @@ private:
 
     // Whether the distance is at least `at`; `answer` is the encoder's.
     bool split(int64_t at, size_t node, size_t slot, bool answer) {
+        const WideLanes values = values_.any() ? values_.split(at, node) : WideLanes{};
+        return decide(distributions_.odds(), values, node, slot, answer);
+    }
+
+    // Whether the residual is the likeliest value.
+    bool hit(int64_t e) {
+        const int64_t value = values_.likeliest();
+        const bool is = decide(distributions_.odds_of(value), values_.single_out(hit_node), hit_node, hit_slot, e == value);
+        if (!is) values_.take(false);
+        return is;
+    }
+
+    // Mixes what contexts, distributions and values say.
+    bool decide(WideLanes odds, WideLanes values, size_t node, size_t slot, bool answer) {
         const bool counted = slot < n_slots;
         Mixer<3>::Inputs inputs;
         inputs[0] = counted ? contexts_.opinions(slot) : WideLanes{};
-        inputs[1] = distributions_.odds();
-        inputs[2] = values_.any() ? values_.split(at, node) : WideLanes{};
+        inputs[1] = odds;
+        inputs[2] = values;
         const size_t set = node * 3 + x_->turn;
         const float logit = mixer_.mix(inputs, node, set * n_levels + static_cast<size_t>(x_->level));
         const float p = probability(logit), refined = curve_.refine(logit, set);
@@ -85,8 +104,7 @@ private:
         const bool bit = coder_.bit(answer, static_cast<uint32_t>(p16));
         const float target = bit ? 1.0f : 0.0f;
         n_decisions_ += 1.0f;
-        const float rate = 0.0021f * (1.0f + 4.0f / (1.0f + n_decisions_ * (1.0f / 10000.0f)));
-        mixer_.update(inputs, (target - p) * rate);
+        mixer_.update(inputs, (target - p) * rate_);
         curve_.update(target, 0.02f);
         if (counted) contexts_.learn(slot, bit, static_cast<float>(p16 << 6));
         if (values_.any()) values_.learn(bit, node);
@@ -118,13 +136,14 @@ private:
 
     int64_t code_digits(int n_digits, int64_t a) {
         const auto group = static_cast<size_t>(std::clamp(n_digits - 1 - x_->shift, 0, 3));
+        const int n_mixed = group < 3 ? 2 : 1;  // deeper ones only if an exact value may tell them
         bool first = false;
         for (int left = n_digits; left > 0; --left) {
             const int depth = n_digits - left;
-            if (depth >= n_mixed_digits && !values_.any()) return code_raw(left, a);
+            if (depth >= n_mixed && !values_.any()) return code_raw(left, a);
             const size_t node = digit_node + static_cast<size_t>(std::min(depth, 3)) * 4 + group;
             const size_t slot = depth == 0   ? digit_slot + group * 2 + (negative_ ? 1 : 0)
-                                : depth == 1 ? digit_slot + 8 + group * 2 + (first ? 1 : 0)
+                                : depth == 1 ? digit_slot + 8 + std::min<size_t>(group * 2 + (first ? 1 : 0), 6)
                                              : n_slots;  // no counters
             distributions_.split_above_low(left - 1);
             const bool upper = narrow(low_ + (int64_t{1} << (left - 1)), node, slot, a);
@@ -150,7 +169,7 @@ private:
     ExactValues values_;
     Mixer<3> mixer_;
     Curve curve_;
-    float n_decisions_ = 0;
+    float n_decisions_ = 0, rate_ = 0;
 
     // The residual under way: distances a still possible begin at low_.
     const Expectation* x_ = nullptr;

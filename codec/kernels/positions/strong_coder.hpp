@@ -26,7 +26,7 @@ void code_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
     Traversal traversal(mesh, corners);
     const Surveyor surveyor(mesh, corners, traversal, xyz);
     Predictor predictor(n);
-    Axes axes(predictor);
+    Axes axes;
     const auto model = std::make_unique<ResidualModel<Coder>>(coder, n);
     SeedModel seeds;
     Surroundings s;
@@ -45,7 +45,7 @@ void code_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
             const size_t d = p.axes[turn];
             const int64_t base = axes.base(d);
             axes.find_contexts(turn, x);
-            model->find(x);
+            model->find(x);  // while the rest is worked out
             axes.expect(turn, x);
             const int64_t e = model->code(x, wrapping_difference(position[d], base));
             position[d] = wrapping_sum(base, e);
