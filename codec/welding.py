@@ -73,27 +73,26 @@ class Split:
     """
 
     vertex: Int32s
-    site: Int64s | None
+    site: Int32s | None
     n_sites: int
 
     def at_sites(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Values per site, for each vertex."""
-        return values if self.site is None else values[self.site]
+        return values if self.site is None else np.take(values, self.site, axis=0)
 
 
 def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
     """Which vertex each corner has; raises CorruptError where there are more than n_vertices."""
     n_sites, n_used = surface.n_vertices, surface.n_vertices
-    vertex, site = surface.vertex, None
+    vertex: Int32s = surface.vertex
+    site: Int32s | None = None
     if splits is not None:
         data = np.frombuffer(splits, np.uint8)
-        vertex = _kernels.decode_splits(data, surface.opposite, surface.vertex, n_sites)
-        n_used = int(vertex.max(initial=-1)) + 1
+        vertex, site = _kernels.decode_splits(data, surface.opposite, surface.vertex, n_sites)
+        n_used = len(site)
     n_isolated = n_vertices - n_used
     if n_isolated < 0:
         raise CorruptError(f"more vertices than the {n_vertices} declared")
-    if splits is not None:
-        site = np.zeros(n_vertices, np.int64)
-        site[vertex] = surface.vertex
-        site[n_used:] = n_sites + np.arange(n_isolated)
+    if site is not None and n_isolated:
+        site = np.append(site, n_sites + np.arange(n_isolated, dtype=np.int32))
     return Split(vertex, site, n_sites + n_isolated)

@@ -50,7 +50,7 @@ def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:
     if array.seams:
         data = np.frombuffer(array.seams, np.uint8)
         with corrupt_at(array.place):
-            wedge = _kernels.decode_splits(data, sites.opposite, sites.vertex, sites.n_vertices)
+            wedge, _ = _kernels.decode_splits(data, sites.opposite, sites.vertex, sites.n_vertices)
     return coding.decode_array(array, _items(wedge, sites))[wedge]
 
 

@@ -182,10 +182,11 @@ nb::bytes encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& po
         without_gil([&] { return ebz::encode_splits(view(opposite), view(point), n_points, view(vertex)); }));
 }
 
-Array<int32_t> decode_splits(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
-                             const Input<int32_t>& point, int32_t n_points) {
-    return to_numpy(
-        without_gil([&] { return ebz::decode_splits(view(bytes), view(opposite), view(point), n_points); }));
+std::tuple<Array<int32_t>, Array<int32_t>> decode_splits(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                                         const Input<int32_t>& point, int32_t n_points) {
+    ebz::DecodedSplits decoded =
+        without_gil([&] { return ebz::decode_splits(view(bytes), view(opposite), view(point), n_points); });
+    return {to_numpy(std::move(decoded.vertex)), to_numpy(std::move(decoded.point))};
 }
 
 template <class Bits>
@@ -435,7 +436,7 @@ NB_MODULE(_kernels, m) {
     m.def("encode_splits", &encode_splits, "opposite"_a, "point"_a, "n_points"_a, "vertex"_a,
           "Which corners at each point belong to which vertex.");
     m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,
-          "The vertex of each corner, numbered by first use.");
+          "The vertex of each corner, numbered by first use, and the point of each vertex.");
     m.def("weld", &weld<int32_t>, "faces"_a, "positions"_a);
     m.def("weld", &weld<int64_t>, "faces"_a, "positions"_a,
           "For each vertex the first that stands for it, empty if nothing is welded.");

@@ -42,20 +42,23 @@ public:
           point_(point),
           vertex_(vertex),
           coder_(coder),
+          several_(n_points),
           n_splits_(n_points),
           n_vertices_(n_points),
           latest_(n_points, none),
           runs_(opposite.size()) {}
 
     void run() {
+        if constexpr (Coder::encoding) find_several();
+        code_several();
         for (Index h = 0; h < n_corners(); ++h) {
             if (opposite_[h] > h) edge(h, opposite_[h]);
         }
-        for (Index c = 0; c < n_corners(); ++c) {
-            const Index first = runs_.first(c);
-            vertex_[c] = first == c ? vertex_of_run(c) : vertex_[first];
-        }
+        for (Index c = 0; c < n_corners(); ++c) vertex_[c] = several_[point_[c]] ? of_run(c) : of_point(point_[c]);
     }
+
+    // The point of each vertex.
+    std::vector<Index> points() { return std::move(points_); }
 
 private:
     static constexpr uint8_t max_splits = 3;
@@ -63,9 +66,27 @@ private:
 
     Index n_corners() const { return static_cast<Index>(opposite_.size()); }
 
+    void find_several() {
+        std::vector<Index> one(several_.size(), none);
+        for (Index c = 0; c < n_corners(); ++c) {
+            Index& vertex = one[point_[c]];
+            several_[point_[c]] |= vertex != none && vertex != vertex_[c];
+            vertex = vertex_[c];
+        }
+    }
+
+    // Along seams, neighbours have several vertices too.
+    void code_several() {
+        uint32_t latest = 0;
+        for (uint8_t& several : several_) {
+            several = several_bit_[latest].code(coder_, several != 0);
+            latest = (latest << 1 | several) & 7;
+        }
+    }
+
     void edge(Index h, Index g) {
-        const bool split = end(h, next(g), 0);
-        end(g, next(h), 1 + split);
+        const bool split = several_[point_[h]] && end(h, next(g), 0);
+        if (several_[point_[g]]) end(g, next(h), 1 + split);
     }
 
     // Corners a and b are at one end of an edge, on its two sides.
@@ -80,6 +101,20 @@ private:
         return split;
     }
 
+    Index of_point(Index p) { return latest_[p] == none ? create(p) : latest_[p]; }
+
+    Index of_run(Index c) {
+        const Index first = runs_.first(c);
+        return first == c ? vertex_of_run(c) : vertex_[first];
+    }
+
+    Index create(Index p) {
+        before_.push_back(latest_[p]);
+        points_.push_back(p);
+        ++n_vertices_[p];
+        return latest_[p] = n_created() - 1;
+    }
+
     // A new vertex of the point, or one that it already has, counted back from the latest.
     Index vertex_of_run(Index corner) {
         const Index p = point_[corner], n_known = n_vertices_[p];
@@ -87,9 +122,7 @@ private:
         if (n_known > 0 && again_[std::min(n_known, max_contexts) - 1].code(coder_, is_known)) {
             return earlier(p, vertex_[corner]);
         }
-        before_.push_back(latest_[p]);
-        ++n_vertices_[p];
-        return latest_[p] = n_created() - 1;
+        return create(p);
     }
 
     Index earlier(Index p, Index vertex) {
@@ -115,12 +148,15 @@ private:
     std::span<const Index> opposite_, point_;
     std::span<Index> vertex_;
     Coder& coder_;
+    std::vector<uint8_t> several_;    // whether a point has several vertices
     std::vector<uint8_t> n_splits_;   // seen at each point, up to max_splits
     std::vector<Index> n_vertices_;   // of each point
     std::vector<Index> latest_;       // vertex of each point
+    std::vector<Index> points_;       // of each vertex
     std::vector<Index> before_;       // the point's vertex before each vertex
     uint64_t n_steps_ = 0;
     Runs runs_;
+    std::array<AdaptiveBit, 8> several_bit_;
     std::array<std::array<AdaptiveBit, max_splits + 1>, 3> split_;
     std::array<AdaptiveBit, max_contexts> again_;
     IntegerModel back_;
@@ -136,12 +172,13 @@ std::vector<uint8_t> encode_splits(std::span<const Index> opposite, std::span<co
     return coder.finish();
 }
 
-std::vector<Index> decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
-                                 std::span<const Index> point, Index n_points) {
+DecodedSplits decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
+                            std::span<const Index> point, Index n_points) {
     std::vector<Index> vertex(opposite.size());
     RangeDecoder coder(bytes);
-    SplitCoder<RangeDecoder>(opposite, point, n_points, vertex, coder).run();
-    return vertex;
+    SplitCoder<RangeDecoder> splits(opposite, point, n_points, vertex, coder);
+    splits.run();
+    return {std::move(vertex), splits.points()};
 }
 
 }  // namespace ebz

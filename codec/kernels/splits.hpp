@@ -17,8 +17,12 @@ namespace ebz {
 std::vector<uint8_t> encode_splits(std::span<const Index> opposite, std::span<const Index> point,
                                    Index n_points, std::span<const Index> vertex);
 
-// The vertex of each corner, numbered by first use.
-std::vector<Index> decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
-                                 std::span<const Index> point, Index n_points);
+struct DecodedSplits {
+    std::vector<Index> vertex;  // of each corner, numbered by first use
+    std::vector<Index> point;   // of each vertex
+};
+
+DecodedSplits decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
+                            std::span<const Index> point, Index n_points);
 
 }  // namespace ebz
