@@ -65,7 +65,8 @@ class Surface:
         """(3m,) the mesh vertex of each corner."""
         if not self.has_copies:
             return self.piece_vertex
-        return np.take(self.vertex_of_piece, self.piece_vertex)
+        # All indices are in range: "clip" spares the buffer of the other modes.
+        return np.take(self.vertex_of_piece, self.piece_vertex, mode="clip")
 
     @property
     def has_copies(self) -> bool:

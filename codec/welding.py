@@ -78,7 +78,7 @@ class Split:
 
     def at_sites(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Values per site, for each vertex."""
-        return values if self.site is None else np.take(values, self.site, axis=0)
+        return values if self.site is None else np.take(values, self.site, axis=0, mode="clip")
 
 
 def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
