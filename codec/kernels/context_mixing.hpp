@@ -1,8 +1,8 @@
 // Binary decisions predicted by many contexts, mixed in the logistic domain.
 //
 // Reference: M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005.
-// Different here: a context met for the first time starts from what the others predicted, and mixers
-// learn fast at first.  Integers only, so that both sides agree on every machine.
+// Different here: mixers learn fast at first, and one knows how many contexts were met before.  Integers
+// only, so that both sides agree on every machine, in loops that compilers turn into vectors.
 #pragma once
 
 #include <algorithm>
@@ -24,15 +24,18 @@ inline uint32_t bounded(int p) {
     return static_cast<uint32_t>(std::clamp(p, least_share, (1 << probability_bits) - least_share));
 }
 
-// A probability in 2^-22 and how often it was met.
-struct Estimate {
+// A probability in 2^-22 and how often it was met, in one word.
+class Estimate {
+public:
     static constexpr uint32_t max_count = 255;
 
-    uint32_t probability : 22 = 1u << 21;
-    uint32_t count : 10 = 0;
+    constexpr Estimate() = default;
+    Estimate(uint32_t probability, uint32_t count) : word_(probability << count_bits | count) {}
 
-    int p12() const { return static_cast<int>(probability >> 10); }
-    int p16() const { return static_cast<int>(probability >> 6); }
+    uint32_t probability() const { return word_ >> count_bits; }
+    uint32_t count() const { return word_ & ((1u << count_bits) - 1); }
+    int p12() const { return static_cast<int>(word_ >> 20); }
+    int p16() const { return static_cast<int>(word_ >> 16); }
 
     template <class Coder>
     bool code(Coder& coder, bool bit) {
@@ -41,27 +44,29 @@ struct Estimate {
         return bit;
     }
 
+    // Modulo 2^32, within which every sum stays.
     void learn(bool bit) {
-        const int64_t target = bit ? (1 << 22) - 1 : 0;
-        const int64_t change = (target - probability) * rates[count];
-        probability = static_cast<uint32_t>(probability + (change >> 16));
-        count += count < max_count;
+        const int32_t distance = (bit << 22) - bit - static_cast<int32_t>(probability());
+        const uint32_t change = static_cast<uint32_t>(distance >> 3) * rates[count()];
+        word_ += (change & ~((1u << count_bits) - 1)) + (count() < max_count);
     }
 
-    // 2^16 / (count + 1.2), between the mean (+ 1) and the last value (+ 0).
+private:
+    static constexpr int count_bits = 10;
+
+    // 2^13 / (count + 1.2), between the mean (+ 1) and the last value (+ 0).
     static constexpr auto rates = [] {
-        std::array<int64_t, max_count + 1> table{};
-        for (int n = 0; n <= static_cast<int>(max_count); ++n) table[n] = 655360 / (10 * n + 12);
+        std::array<uint32_t, max_count + 1> table{};
+        for (uint32_t n = 0; n <= max_count; ++n) table[n] = 81920 / (10 * n + 12);
         return table;
     }();
+
+    uint32_t word_ = 1u << 31;
 };
 
 // An entry of DegreePrior as an estimate; 0 is no knowledge.
 inline Estimate starting_estimate(int prior) {
-    Estimate estimate;
-    estimate.probability = static_cast<uint32_t>(squash(prior * 16)) << 6;
-    estimate.count = prior == 0 ? 0 : 2;
-    return estimate;
+    return Estimate(static_cast<uint32_t>(squash(prior * 16)) << 6, prior == 0 ? 0 : 2);
 }
 
 // The estimates of up to three decisions in one context.
@@ -71,14 +76,17 @@ struct Evidence {
     std::array<Estimate, n_decisions> estimates;
 };
 
-// One context's evidence by hash; what collides starts anew.
-class EvidenceTable {
+// The evidence of several contexts, a table each, by hash; what collides starts anew.
+class EvidenceTables {
 public:
-    explicit EvidenceTable(int n_bits) : shift_(32 - n_bits), slots_(size_t{1} << n_bits) {}
+    EvidenceTables(int n_tables, int n_bits) : n_bits_(n_bits), slots_(size_t{1} * n_tables << n_bits) {}
 
-    Evidence& find(uint32_t hash) {
-        Evidence& slot = slots_[hash >> shift_];
-        if (slot.check != hash) {
+    // n_known grows where the context was met before.
+    Evidence& find(int table, uint32_t hash, int& n_known) {
+        Evidence& slot = slots_[static_cast<size_t>(table) << n_bits_ | hash >> (32 - n_bits_)];
+        if (slot.check == hash) {
+            ++n_known;
+        } else {
             slot = {};
             slot.check = hash;
         }
@@ -86,58 +94,65 @@ public:
     }
 
 private:
-    int shift_;
+    int n_bits_;
     std::vector<Evidence> slots_;
 };
 
-// Weighs n inputs in sets, one of which is selected for each decision.
+// Sets of weights of n inputs, one of which is selected for each decision.
 template <int n>
 class Mixer {
 public:
     // Whole vectors; those past n stay 0.
     static constexpr int width = (n + 7) / 8 * 8;
-    struct alignas(16) Inputs : std::array<int16_t, width> {};
+    struct alignas(16) Vector : std::array<int16_t, width> {};
+
+    class Set {
+    public:
+        int mix(const Vector& inputs) const {
+            int32_t sum = 0;
+            for (int i = 0; i < width; ++i) sum += weights_[i] * inputs[i];
+            return std::clamp(sum >> weight_bits, -stretch_limit, stretch_limit);
+        }
+
+        // Gradient descent on the code length of what was mixed.
+        void learn(const Vector& inputs, int mixed, bool bit) {
+            const int error = (bit << probability_bits) - squash(mixed);
+            // Errors have 17 bits with their sign, rates 11, steps 16.
+            const int16_t step = static_cast<int16_t>((error * rates[std::min(n_uses_, max_count)]) >> 12);
+            ++n_uses_;
+            for (int i = 0; i < width; ++i) {
+                // Inputs have 13 bits with their sign: products below 2^31, changes below 3711.
+                const int16_t input = static_cast<int16_t>(inputs[i] * 8);
+                const int16_t change = static_cast<int16_t>((input * step) >> 16);
+                const int16_t weight = static_cast<int16_t>(weights_[i] + ((change + 1) >> 1));
+                weights_[i] = std::clamp<int16_t>(weight, -max_weight, max_weight);
+            }
+        }
+
+    private:
+        friend class Mixer;
+        friend struct Training;
+        Vector weights_{};
+        int n_uses_ = 0;  // fewer than symbols
+    };
 
     explicit Mixer(size_t n_sets) : sets_(n_sets) {}
 
     // Weights in 2^-10 to start from.
     void start(size_t set, const std::array<int16_t, n>& weights) {
         for (int i = 0; i < n; ++i) {
-            sets_[set].weights[i] = weights[i] * (1 << (weight_bits - 10));
-            sets_[set].rounded[i] = static_cast<int16_t>(sets_[set].weights[i] >> rounding_bits);
+            sets_[set].weights_[i] = static_cast<int16_t>(weights[i] * (1 << (weight_bits - 10)));
         }
     }
 
-    void select(size_t set) { selected_ = &sets_[set]; }
-
-    int mix(const Inputs& inputs) {
-        int32_t sum = 0;
-        for (int i = 0; i < width; ++i) sum += selected_->rounded[i] * inputs[i];
-        mixed_ = std::clamp(sum >> (weight_bits - rounding_bits), -stretch_limit, stretch_limit);
-        return mixed_;
-    }
-
-    // Gradient descent on the code length.
-    void learn(const Inputs& inputs, bool bit) {
-        const int error = (bit << probability_bits) - squash(mixed_);
-        Set& set = *selected_;
-        // Errors have 17 bits with their sign, rates 11, steps 16.
-        const int16_t step = static_cast<int16_t>((error * rates[std::min(set.n_uses, max_count)]) >> 12);
-        ++set.n_uses;
-        for (int i = 0; i < width; ++i) {
-            const int32_t weight = set.weights[i] + ((inputs[i] * step + (1 << 11)) >> 12);
-            set.weights[i] = std::clamp(weight, -max_weight, max_weight);
-            set.rounded[i] = static_cast<int16_t>(set.weights[i] >> rounding_bits);
-        }
-    }
+    Set& at(size_t set) { return sets_[set]; }
 
 private:
     friend struct Training;
 
-    static constexpr int weight_bits = 16, rounding_bits = 4;
-    // Below 8, so that rounded weights fit 16 bits and n products with inputs fit 31.
-    static constexpr int32_t max_weight = (8 << weight_bits) - 1;
-    static_assert(int64_t{n} * (max_weight >> rounding_bits) * stretch_limit < INT32_MAX);
+    static constexpr int weight_bits = 14;
+    static constexpr int16_t max_weight = 28000;
+    static_assert(int64_t{n} * max_weight * stretch_limit < INT32_MAX);
     static constexpr int max_count = 255;
     // In 2^-16: 0.025 at first, less than a third of that after 255 uses.
     static constexpr auto rates = [] {
@@ -146,15 +161,7 @@ private:
         return table;
     }();
 
-    struct Set {
-        alignas(16) std::array<int32_t, width> weights{};  // what learns
-        alignas(16) std::array<int16_t, width> rounded{};  // what mixes
-        int n_uses = 0;                                     // fewer than symbols
-    };
-
     std::vector<Set> sets_;
-    Set* selected_ = nullptr;
-    int mixed_ = 0;
 };
 
 // Secondary estimation: what a prediction was worth in a context.

@@ -20,8 +20,7 @@ public:
     explicit MixedModel(Index n_symbols)
         : far_(20, n_symbols),
           near_(12, n_symbols),
-          tables_(n, EvidenceTable(std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) - 2, 10,
-                                                   Contexts::n_table_bits))),
+          tables_(n, std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) - 2, 10, Contexts::n_table_bits)),
           by_known_(n_decisions * (n + 1)),
           by_symbols_(n_decisions * 128),
           by_match_(thorough ? n_decisions * 512 : 0),
@@ -71,7 +70,7 @@ private:
                 for (uint32_t latest = 0; latest < 64; ++latest) {
                     const int prior = degree_prior[d][degree][latest];
                     if (prior == 0) continue;
-                    Evidence& evidence = tables_[0].find(context_hash(0, degree, latest) + salt(d, 0));
+                    Evidence& evidence = tables_.find(0, context_hash(0, degree, latest) + salt(d, 0), n_known_);
                     evidence.estimates[slot(d)] = starting_estimate(prior);
                 }
             }
@@ -85,27 +84,30 @@ private:
     }
 
     void find(int decision, uint32_t below_length) {
+        n_known_ = 0;
         for (int i = 0; i < n; ++i) {
             const uint32_t added = salt(decision, i == Contexts::of_lengths ? below_length : 0);
-            evidence_[i] = &tables_[i].find(hashes_[i] + added);
+            evidence_[i] = &tables_.find(i, hashes_[i] + added, n_known_);
         }
     }
 
     template <class Coder>
     bool decide(Coder& coder, int decision, bool bit, const WordView& view) {
-        int n_known = 0;
+        typename Mixer<n>::Vector inputs{};
         for (int i = 0; i < n; ++i) {
-            const Estimate& e = evidence_[i]->estimates[slot(decision)];
-            n_known += e.count > 0;
-            inputs_[i] = static_cast<int16_t>(stretch(e.p12()) * confidence[e.count] >> 8);
+            inputs[i] = static_cast<int16_t>(stretch(evidence_[i]->estimates[slot(decision)].p12()));
         }
-        by_known_.select(decision * (n + 1) + n_known);
-        by_symbols_.select(decision * 128 + (view.l0 << 3 | history_.latest(1)));
-        int mixed = by_known_.mix(inputs_) + by_symbols_.mix(inputs_);
+        auto& by_known = by_known_.at(decision * (n + 1) + n_known_);
+        auto& by_symbols = by_symbols_.at(decision * 128 + (view.l0 << 3 | history_.latest(1)));
+        const int a = by_known.mix(inputs), b = by_symbols.mix(inputs);
+        int mixed = a + b;
+        typename Mixer<n>::Set* by_match = nullptr;
+        int c = 0;
         if constexpr (thorough) {
             const uint32_t matches = far_.confidence() << 3 | near_.confidence();
-            by_match_.select(decision * 512 + (matches << 3 | std::min(history_.since_close(), 7u)));
-            mixed = (mixed + by_match_.mix(inputs_)) / 3;
+            by_match = &by_match_.at(decision * 512 + (matches << 3 | std::min(history_.since_close(), 7u)));
+            c = by_match->mix(inputs);
+            mixed = (mixed + c) / 3;
         } else {
             mixed /= 2;
         }
@@ -118,41 +120,25 @@ private:
                        by_loop_.refine(decision * 256 + loop, mixed)) / 4;
         }
         bit = coder.bit(bit, bounded(refined));
-        by_known_.learn(inputs_, bit);
-        by_symbols_.learn(inputs_, bit);
+        by_known.learn(inputs, a, bit);
+        by_symbols.learn(inputs, b, bit);
         if constexpr (thorough) {
-            by_match_.learn(inputs_, bit);
+            by_match->learn(inputs, c, bit);
             by_degrees_.learn(bit);
             by_loop_.learn(bit);
         }
-        for (int i = 0; i < n; ++i) learn(evidence_[i]->estimates[slot(decision)], bit, p);
+        for (int i = 0; i < n; ++i) evidence_[i]->estimates[slot(decision)].learn(bit);
         return bit;
     }
 
-    // A new context starts from what was predicted without it.
-    static void learn(Estimate& estimate, bool bit, int predicted) {
-        if (estimate.count == 0) {
-            // Within 0.02 of 0 and 1: one meeting decides little.
-            estimate.probability = static_cast<uint32_t>(std::clamp(predicted, 1311, 64225)) << 6;
-        }
-        estimate.learn(bit);
-    }
-
-    // In 2^-8; 0 for a context that is new.
-    static constexpr auto confidence = [] {
-        std::array<int, Estimate::max_count + 1> table{};
-        for (size_t n = 1; n < table.size(); ++n) table[n] = static_cast<int>(256 * (2 * n + 9) / (2 * n + 14));
-        return table;
-    }();
-
     WordHistory history_;
     MatchModel far_, near_;
-    std::vector<EvidenceTable> tables_;
+    EvidenceTables tables_;
     Mixer<n> by_known_, by_symbols_, by_match_;
     Refinement by_degrees_, by_loop_;
     std::array<uint32_t, n> hashes_{};
     std::array<Evidence*, n> evidence_{};
-    typename Mixer<n>::Inputs inputs_{};
+    int n_known_ = 0;
 };
 
 }  // namespace ebz

@@ -16,10 +16,8 @@ namespace ebz {
 
 // One hash of a context's number and up to 96 bits.
 constexpr uint32_t context_hash(uint32_t context, uint32_t a, uint32_t b = 0, uint32_t c = 0) {
-    uint64_t h = (uint64_t{context} << 32 | a) * 0x9E3779B97F4A7C15u;
-    h += b * 0xC2B2AE3D27D4EB4Fu + c * 0xFF51AFD7ED558CCDu;
-    h = (h ^ h >> 29) * 0xBF58476D1CE4E5B9u;
-    return static_cast<uint32_t>(h >> 32);
+    const uint64_t key = (uint64_t{b} << 32 | a) + 0xC2B2AE3D27D4EB4Fu * (c + 1) + context;
+    return static_cast<uint32_t>((key * 0x9E3779B97F4A7C15u) >> 32);
 }
 
 // Bits side by side, four each but for the first.
@@ -31,13 +29,12 @@ constexpr uint32_t pack(uint32_t first, Nibble... nibbles) {
 
 struct StrongContexts {
     static constexpr const auto& prior = strong_prior;
-    static constexpr int n = 16, of_lengths = 11;
+    static constexpr int n = 14, of_lengths = 9;
     static constexpr int n_table_bits = 18;
     static constexpr bool thorough = true;
 
     static void hash(const WordView& v, const WordHistory& past, const MatchModel& near,
                      const MatchModel& far, std::array<uint32_t, n>& h) {
-        const uint64_t past16 = past.recent(16);
         int i = 0;
         const auto add = [&](uint32_t a, uint32_t b = 0, uint32_t c = 0) {
             h[i] = context_hash(i, a, b, c);
@@ -47,8 +44,6 @@ struct StrongContexts {
         add(past.latest(3), pack(past.since_close(), v.l0));
         add(past.latest(4), pack(v.l0, v.l1));
         add(past.latest(10), v.l0);
-        add(static_cast<uint32_t>(past16), static_cast<uint32_t>(past16 >> 32), v.l0);
-        add(pack(v.l0, v.l1, v.l2, v.r0), v.can_close);
         add(pack(v.l0, v.l1, v.l2, v.l3, v.r0), past.closed_degrees(1));
         add(pack(v.l0, v.l1, v.l2, v.r0, v.r1, v.r2), past.latest(3));
         add(pack(v.l0, v.r0, v.excess_l0), v.can_close);

@@ -23,5 +23,5 @@ CHEAPEST_SYMBOL = math.log2(65536 / (65536 - 12))
 
 
 def state_bytes(n_symbols: int) -> int:
-    """Memory of the largest model, at most: 16 tables of 2^18 slots of 16 bytes, or fewer slots."""
-    return (4 << 20) + min(256 << 18, 128 * n_symbols)
+    """Memory of the largest model, at most: 14 tables of 2^18 slots of 16 bytes, or fewer slots."""
+    return (4 << 20) + min(224 << 18, 112 * n_symbols)

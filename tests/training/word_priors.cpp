@@ -158,12 +158,12 @@ struct Training {
         std::array<double, n> sum{};
         double n_uses = 0;
         for (int s = first; s < first + n_sets; ++s) {
-            const double uses = mixer.sets_[s].n_uses + 1e-9;
+            const double uses = mixer.sets_[s].n_uses_ + 1e-9;
             n_uses += uses;
-            for (int i = 0; i < n; ++i) sum[i] += uses * mixer.sets_[s].weights[i];
+            for (int i = 0; i < n; ++i) sum[i] += uses * mixer.sets_[s].weights_[i];
         }
         std::array<int16_t, n> weights;
-        for (int i = 0; i < n; ++i) weights[i] = static_cast<int16_t>(std::lround(sum[i] / n_uses / 64));
+        for (int i = 0; i < n; ++i) weights[i] = static_cast<int16_t>(std::lround(sum[i] / n_uses / 16));
         return weights;
     }
 };

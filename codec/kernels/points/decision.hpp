@@ -33,7 +33,7 @@ public:
     void add(order::Weight& feature) { features_[n_features_++] = &feature; }
 
     void add(Estimate& estimate, Gains& gains) {
-        const uint32_t n = estimate.count;
+        const uint32_t n = estimate.count();
         const uint32_t trust = n < 4 ? n : n < 16 ? 4 : 5;
         estimates_[n_estimates_++] = {&estimate, &gains[trust], n == 0 ? 0 : stretch(estimate.p12())};
     }
