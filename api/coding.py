@@ -24,6 +24,7 @@ from ebz.codec.order import Permutation
 from ebz.codec.pipeline import Progress
 from ebz.codec.scene import Scene
 from ebz.codec.scenes import Encoded
+from ebz.codec.threads import using as run_on
 from ebz.formats import ebz_file
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
 
@@ -46,6 +47,7 @@ def compress(
     level: int = ...,
     model: str | os.PathLike[str] | AnyTable | None = ...,
     embed_model: bool = ...,
+    threads: int = ...,
     progress: Progress | None = ...,
 ) -> bytes: ...
 
@@ -65,6 +67,7 @@ def compress(
     level: int = ...,
     model: str | os.PathLike[str] | AnyTable | None = ...,
     embed_model: bool = ...,
+    threads: int = ...,
     progress: Progress | None = ...,
 ) -> tuple[bytes, Permutation]: ...
 
@@ -102,6 +105,7 @@ def compress(
     level: int = DEFAULT_LEVEL,
     model: str | os.PathLike[str] | AnyTable | None = None,
     embed_model: bool = False,
+    threads: int = 1,
     progress: Progress | None = None,
 ) -> bytes | tuple[bytes, Permutation | list[Permutation]]:
     """The .ebz bytes of a mesh or scene; without options that say so nothing is lost.
@@ -125,6 +129,7 @@ def compress(
     certificate (ebz.models.certify): the word is coded with it; None: with the level's adaptive
     model, or with the built-in table where that is shorter.
     embed_model: code the word with a table and store that in the file.
+    threads: at most so many, 0 for one per core; the bytes are the same.
     progress: called as progress(stage, done, total).
 
     compress(decompress(data)) gives the same bytes with the same options.  Raises OptionError and
@@ -135,15 +140,16 @@ def compress(
     table = None if model is None and not embed_model else load_model(model)
     attributes = _attribute_precision(attribute_bits or {}, attribute_error or {}, normal_bits)
     require_names(mesh.parts if isinstance(mesh, Scene) else [mesh], attributes)
-    encoded, orders = scenes.encode(
-        mesh,
-        table,
-        level=level,
-        precision=Precision(bits, max_error, lattice),
-        attribute_precision=attributes,
-        keep_order=keep_order,
-        progress=progress,
-    )
+    with run_on(threads):
+        encoded, orders = scenes.encode(
+            mesh,
+            table,
+            level=level,
+            precision=Precision(bits, max_error, lattice),
+            attribute_precision=attributes,
+            keep_order=keep_order,
+            progress=progress,
+        )
     data = ebz_file.write(encoded, embed_model=embed_model or _is_file(model))
     if not return_permutation:
         return data
@@ -155,14 +161,17 @@ def decompress(
     data: BytesLike,
     *,
     memory_limit: int = DEFAULT_MEMORY_LIMIT,
+    threads: int = 1,
     progress: Progress | None = None,
 ) -> Mesh | Scene:
     """The mesh or the scene of an .ebz file's bytes, as it was compressed.
 
     memory_limit: in bytes; what decoding would take is checked before anything is allocated.
+    threads: at most so many, 0 for one per core.
     Raises NotEbzError, VersionError, TruncatedError, CorruptError and MemoryLimitError.
     """
-    return scenes.decode(parse(data, memory_limit), progress=progress)
+    with run_on(threads):
+        return scenes.decode(parse(data, memory_limit), progress=progress)
 
 
 def parse(data: BytesLike, memory_limit: int) -> Encoded:

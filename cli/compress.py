@@ -1,13 +1,15 @@
 """`ebz compress`: mesh files in, .ebz files out."""
 
+from collections.abc import Callable
 from typing import Any
 
 import click
 
 from ebz.cli import options
 from ebz.cli.files import Input, Output, compressed_name
-from ebz.cli.jobs import Manner, Summary, deliver, for_each
+from ebz.cli.jobs import Manner, Summary, deliver, deliver_each, is_alone
 from ebz.cli.messages import Progress
+from ebz.codec.threads import allowed
 
 EPILOG = """\b
 Examples:
@@ -75,6 +77,7 @@ On a terminal, one line per file tells the sizes; -q omits it, -v says more.
     help="Keep the order of vertices and faces and the first corner of each face.",
 )
 @options.levels
+@options.threads
 @click.option("--model", metavar="NAME|FILE", help="The model that codes connectivity.")
 @click.option("--embed-model", is_flag=True, help="Store the tables of the model in the file.")
 @click.option("--triangulate", is_flag=True, help="Cut polygons into fans of triangles.")
@@ -91,6 +94,7 @@ def compress(
     source_format: str | None,
     triangulate: bool,
     level: int | None,
+    threads: int,
     **coding: Any,
 ) -> int:
     """Compress each INPUT (a.ply) into a file next to it (a.ply.ebz).
@@ -103,20 +107,19 @@ def compress(
     if sum(coding[name] is not None for name in ("bits", "max_error", "grid")) > 1:
         raise click.UsageError("--bits, --max-error and --grid exclude each other.")
     named = options.single_output(output, to_stdout, inputs)
-    manner = Manner(force, remove and not keep, quiet, verbose)
+    manner = Manner(force, remove and not keep, quiet, verbose, alone=is_alone(inputs, threads))
     coding["level"] = level or 6
     for name in ("attribute_bits", "attribute_error"):
         coding[name] = dict(coding[name])
 
-    def work(name: str) -> int:
+    def prepare(name: str) -> Callable[[], int]:
         source = Input(name, force=force)
         target = Output(named or compressed_name(source), source, force=force)
         target.refuse_terminal()
         read_options = {"format": source_format, "triangulate": triangulate}
-        _compress_one(source, target, manner, read_options, coding)
-        return 0
+        return _compress_one(source, target, manner, read_options, coding)
 
-    return for_each(inputs, work, quiet=quiet)
+    return deliver_each(inputs, prepare, quiet=quiet, n_threads=threads)
 
 
 def _compress_one(
@@ -125,15 +128,20 @@ def _compress_one(
     manner: Manner,
     read_options: dict[str, Any],
     coding: dict[str, Any],
-) -> None:
+) -> Callable[[], int]:
     import ebz
 
     summary = Summary(manner)
-    progress = Progress(source.name, quiet=manner.quiet)
+    progress = Progress(source.name, quiet=manner.quiet or not manner.alone)
     mesh = ebz.read(source.mesh_source(), **read_options)
     try:
-        data = ebz.compress(mesh, progress=progress, **coding)
+        data = ebz.compress(mesh, threads=allowed(), progress=progress, **coding)
     finally:
         progress.clear()
-    deliver(source, target, data, manner)
-    summary.show(source, target, n_plain=source.n_bytes, n_packed=len(data))
+
+    def finish() -> int:
+        deliver(source, target, data, manner)
+        summary.show(source, target, n_plain=source.n_bytes, n_packed=len(data))
+        return 0
+
+    return finish

@@ -1,5 +1,6 @@
 """`ebz decompress`: .ebz files in, mesh files out."""
 
+from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,8 +9,9 @@ import click
 
 from ebz.cli import options
 from ebz.cli.files import SUFFIX, Input, Output, stripped_name
-from ebz.cli.jobs import Manner, Summary, deliver, for_each
+from ebz.cli.jobs import Manner, Summary, deliver, deliver_each, is_alone
 from ebz.cli.messages import Progress
+from ebz.codec.threads import allowed
 
 if TYPE_CHECKING:
     from ebz import Mesh, Scene
@@ -37,6 +39,7 @@ Examples:
     "else that of the original]",
 )
 @options.memory_limit
+@options.threads
 def decompress(
     *,
     inputs: tuple[str, ...],
@@ -49,6 +52,7 @@ def decompress(
     verbose: bool,
     target_format: str | None,
     memory_limit: int,
+    threads: int,
 ) -> int:
     """Turn each INPUT (a.ply.ebz) into the mesh file that it was made of (a.ply).
 
@@ -56,9 +60,9 @@ def decompress(
     kept. No INPUT, or "-", is standard input, which is decompressed to standard output.
     """
     named = options.single_output(output, to_stdout, inputs)
-    manner = Manner(force, remove and not keep, quiet, verbose)
+    manner = Manner(force, remove and not keep, quiet, verbose, alone=is_alone(inputs, threads))
 
-    def work(name: str) -> int:
+    def prepare(name: str) -> Callable[[], int]:
         source = Input(name, force=force)
         # An output that is certain to fail is found out before the work.
         early = Output(named, source, force=force) if named else None
@@ -71,19 +75,25 @@ def decompress(
         plain = _encode(mesh, format_name)
         if target.is_terminal() and not _is_text(plain):
             target.refuse_terminal()
-        deliver(source, target, plain, manner)
-        summary.show(source, target, n_plain=len(plain), n_packed=len(packed))
-        return 0
 
-    return for_each(inputs, work, quiet=quiet)
+        def finish() -> int:
+            deliver(source, target, plain, manner)
+            summary.show(source, target, n_plain=len(plain), n_packed=len(packed))
+            return 0
+
+        return finish
+
+    return deliver_each(inputs, prepare, quiet=quiet, n_threads=threads)
 
 
 def _decode(packed: bytes, source: Input, manner: Manner, memory_limit: int) -> "Mesh | Scene":
     import ebz
 
-    progress = Progress(source.name, quiet=manner.quiet)
+    progress = Progress(source.name, quiet=manner.quiet or not manner.alone)
     try:
-        return ebz.decompress(packed, memory_limit=memory_limit, progress=progress)
+        return ebz.decompress(
+            packed, memory_limit=memory_limit, threads=allowed(), progress=progress
+        )
     finally:
         progress.clear()
 

@@ -1,42 +1,81 @@
 """Several inputs in turn: a failure does not stop the rest, and shows in the exit status."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
 
 from ebz.cli import messages
 from ebz.cli.atomic import sync_folder
 from ebz.cli.files import Input, Output
 from ebz.cli.messages import STDIN
+from ebz.codec import threads
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
 class Manner:
-    """How files are treated and how much is said about it."""
+    """How files are treated and how much is said about it; alone: not several at a time."""
 
     force: bool = False
     remove: bool = False
     quiet: bool = False
     verbose: bool = False
+    alone: bool = True
 
 
-def for_each(inputs: tuple[str, ...], work: Callable[[str], int], *, quiet: bool = False) -> int:
+def is_alone(inputs: tuple[str, ...], n_threads: int) -> bool:
+    """Whether one input is worked on at a time."""
+    return n_threads == 1 or len(inputs) <= 1
+
+
+def for_each(inputs: tuple[str, ...], work: Callable[[str], int]) -> int:
     """Calls `work` on every input, standard input if there is none, and returns the worst status.
 
     An error (1) outweighs a difference (2).
     """
-    statuses = [_attempt(name, work, quiet) for name in inputs or ("-",)]
-    return 1 if 1 in statuses else max(statuses)
+    with messages.warnings_kept():
+        return _worst(_attempt(name, partial(work, name)) for name in inputs or ("-",))
 
 
-def _attempt(name: str, work: Callable[[str], int], quiet: bool) -> int:
+def deliver_each(
+    inputs: tuple[str, ...],
+    prepare: Callable[[str], Callable[[], int]],
+    *,
+    quiet: bool,
+    n_threads: int,
+) -> int:
+    """As for_each, in two steps: `prepare` on several threads; what it returns in turn, on this.
+
+    Only the main thread may write whole files: it alone can catch signals.
+    """
+
+    def prepared(name: str) -> Callable[[], int] | None:
+        return _attempt(name, partial(prepare, name), quiet=quiet)
+
+    names = inputs or ("-",)
+    with threads.using(n_threads), messages.warnings_kept():
+        pairs = zip(names, threads.each(prepared, names), strict=True)
+        return _worst(finish and _attempt(name, finish, quiet=quiet) for name, finish in pairs)
+
+
+def _worst(statuses: Iterable[int | None]) -> int:
+    """None stands for an error."""
+    found = {1 if status is None else status for status in statuses}
+    return 1 if 1 in found else max(found)
+
+
+def _attempt(name: str, work: Callable[[], Result], *, quiet: bool = False) -> Result | None:
+    """None where it failed, which has been said."""
     shown = STDIN if name == "-" else name
     try:
         with messages.warnings_of(shown, quiet=quiet):
-            return work(name)
+            return work()
     except Exception as error:
         messages.report(error, shown)
-        return 1
+        return None
 
 
 def deliver(source: Input, output: Output, data: bytes | memoryview, manner: Manner) -> None:

@@ -6,6 +6,8 @@ import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
+from typing import Any
 
 from ebz.codec.errors import DroppedWarning, EbzError
 
@@ -16,6 +18,9 @@ UNITS = ("B", "KiB", "MiB", "GiB", "TiB")
 CLEAR_LINE = "\r\033[K"
 # Control characters from file names and file contents do not reach a terminal.
 ESCAPES = {code: f"\\x{code:02x}" for code in (*range(9), *range(11, 32), 127)}
+
+
+_caught: ContextVar[list[Warning | str]] = ContextVar("caught")
 
 
 def encode(text: str) -> bytes:
@@ -59,15 +64,29 @@ def _explain(error: BaseException) -> tuple[str | None, str]:
 
 
 @contextmanager
-def warnings_of(name: str, *, quiet: bool) -> Iterator[None]:
-    """Shows the warnings raised in this context as lines about the file `name`."""
-    with warnings.catch_warnings(record=True) as caught:
+def warnings_kept() -> Iterator[None]:
+    """Hands warnings to the `warnings_of` around them, whatever the thread."""
+
+    def keep(message: Warning | str, *_: Any, **__: Any) -> None:
+        _caught.get().append(message)
+
+    with warnings.catch_warnings():
         warnings.simplefilter("always", DroppedWarning)
-        try:
-            yield
-        finally:
-            for warning in () if quiet else caught:
-                say(f"ebz: warning: {name}: {warning.message}")
+        warnings.showwarning = keep
+        yield
+
+
+@contextmanager
+def warnings_of(name: str, *, quiet: bool) -> Iterator[None]:
+    """Shows the warnings kept in this context as lines about the file `name`."""
+    caught: list[Warning | str] = []
+    token = _caught.set(caught)
+    try:
+        yield
+    finally:
+        _caught.reset(token)
+        for message in () if quiet else caught:
+            say(f"ebz: warning: {name}: {message}")
 
 
 def stderr_is_terminal() -> bool:

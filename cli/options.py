@@ -116,6 +116,17 @@ memory_limit = click.option(
 )
 
 
+threads = click.option(
+    "-T",
+    "--threads",
+    metavar="N",
+    type=click.IntRange(0),
+    default=1,
+    show_default=True,
+    help="Use up to N threads, 0 for one per core; the output is the same.",
+)
+
+
 def single_output(output: str | None, to_stdout: bool, inputs: tuple[str, ...]) -> str | None:
     """The output named by -o or -c, which exclude each other and take one input only."""
     if to_stdout and output not in (None, "-"):

@@ -9,7 +9,7 @@ import click
 
 from ebz.cli import options
 from ebz.cli.files import Output
-from ebz.cli.messages import STDOUT, warnings_of
+from ebz.cli.messages import STDOUT, warnings_kept, warnings_of
 
 if TYPE_CHECKING:
     from ebz import Mesh
@@ -155,7 +155,7 @@ def _write(
     if format_name not in TEXT_FORMATS:
         target.refuse_terminal()
     buffer = BytesIO()
-    with warnings_of(STDOUT if output == "-" else output, quiet=False):
+    with warnings_kept(), warnings_of(STDOUT if output == "-" else output, quiet=False):
         ebz.write(buffer, make(), format=format_name)
     target.write([buffer.getbuffer()])
     return 0

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels
+from ebz.codec import _kernels, threads
 from ebz.codec.errors import CorruptError, MeshError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
@@ -130,11 +130,12 @@ def encode(
     copies = _copies(surface)
     counts = WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, len(copies))
     gluing = _encode_gluing(copies, surface.vertex_of_piece)
-    words = [
-        EncodedWord(counts, model, symbols, specials, *streams, gluing)
-        for model in models
-        for streams in [_encode_word(symbols, specials, counts, model)]
-    ]
+
+    def under(model: WordModel) -> EncodedWord:
+        streams = _encode_word(symbols, specials, counts, model)
+        return EncodedWord(counts, model, symbols, specials, *streams, gluing)
+
+    words = threads.run(under, models)
     return min(words, key=lambda word: len(word.word) + len(word.special_integers)), surface, order
 
 

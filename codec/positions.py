@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels
+from ebz.codec import _kernels, threads
 from ebz.codec.connectivity import Surface
 from ebz.codec.lattice import FloatLattice, Integers, Points
 
@@ -35,10 +35,11 @@ def encode(
     n_along: how many points are coded, the first; those past the surface have no neighbours.
     """
     values = points.integers[:n_along].reshape(-1)
-    streams = [
-        (_kernels.encode_positions(*_arrays(surface), n_along, values, chosen), chosen)
-        for chosen in _candidates(points, dtype, method)
-    ]
+
+    def by(chosen: Method) -> tuple[bytes, Method]:
+        return _kernels.encode_positions(*_arrays(surface), n_along, values, chosen), chosen
+
+    streams = threads.run(by, _candidates(points, dtype, method))
     stream, chosen = min(streams, key=lambda pair: len(pair[0]))
     if not stream:  # more than the 32 bits of the fast method
         return encode(surface, points, n_along, dtype, Method.MEDIUM)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ebz.codec import fitting, metadata, pipeline
+from ebz.codec import fitting, metadata, pipeline, threads
 from ebz.codec.connectivity import OutputOrder, WordModel
 from ebz.codec.encoded import EncodedMesh, EncodedText
 from ebz.codec.errors import corrupt_at
@@ -50,20 +50,20 @@ def encode(
         with in_part(number, name_of(part)):
             fitting.check(part.vertices, precision)
     points = fitting.fit_together([part.vertices for part in parts], precision)
-    encoded = []
-    for number, part in enumerate(parts):
-        report = _within(progress, number, len(parts))
+
+    def coded(number: int) -> tuple[EncodedMesh, OutputOrder]:
+        part, report = parts[number], _within(progress, number, len(parts))
         with in_part(number, name_of(part)):
-            encoded.append(
-                pipeline.encode(
-                    part,
-                    model,
-                    precision=precision,
-                    points=points[number],
-                    progress=report,
-                    **options,
-                )
+            return pipeline.encode(
+                part,
+                model,
+                precision=precision,
+                points=points[number],
+                progress=report,
+                **options,
             )
+
+    encoded = threads.run(coded, range(len(parts)))
     carried = metadata.encode(content.metadata)
     return EncodedScene([part for part, _ in encoded], carried), [order for _, order in encoded]
 
@@ -74,12 +74,14 @@ def decode(encoded: Encoded, *, progress: Progress | None = None) -> Mesh | Scen
         return pipeline.decode(encoded, progress=progress).mesh
     with corrupt_at(encoded.place):
         carried = metadata.decode(encoded.metadata)
-    parts = []
-    for number, part in enumerate(encoded.parts):
+    parts = encoded.parts
+
+    def decoded(number: int) -> Mesh:
         with in_part(number):
-            report = _within(progress, number, len(encoded.parts))
-            parts.append(pipeline.decode(part, progress=report).mesh)
-    return Scene(parts, carried)
+            report = _within(progress, number, len(parts))
+            return pipeline.decode(parts[number], progress=report).mesh
+
+    return Scene(threads.run(decoded, range(len(parts))), carried)
 
 
 def _within(progress: Progress | None, number: int, n: int) -> Progress | None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels
+from ebz.codec import _kernels, threads
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import guesses, labels, lattices, relations, specials
 from ebz.codec.attributes.bundles import Bundle, bundles
@@ -34,17 +34,19 @@ def encode(
     precision: AttributePrecision = EXACT,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source entry of each output entry."""
-    return [
-        encode_bundle(replace(bundle, values=bundle.values[order]), items, precision)
-        for bundle in bundles(attributes, precision.of)
-    ]
+
+    def coded(bundle: Bundle) -> EncodedArray:
+        return encode_bundle(replace(bundle, values=bundle.values[order]), items, precision)
+
+    return threads.run(coded, bundles(attributes, precision.of))
 
 
 def decode(arrays: list[EncodedArray], items: Items) -> Attributes:
     """The attributes by name; raises CorruptError."""
     named: Attributes = {}
-    for array in arrays:
-        named |= by_name(array, decode_array(array, items))
+    values = threads.run(lambda array: decode_array(array, items), arrays)
+    for array, decoded in zip(arrays, values, strict=True):
+        named |= by_name(array, decoded)
     return named
 
 
@@ -67,7 +69,7 @@ def encode_bundle(
     lattice = lattice_of(flat, precision.of(bundle.names[0])) or lattices.fit(flat)
     plan, integers = specials.integers(flat, lattice)
     plans = _plans(plan, integers, flat, items, array)
-    candidates = [(chosen, _encode(chosen, coded, items, array)) for chosen, coded in plans]
+    candidates = threads.run(lambda pair: (pair[0], _encode(*pair, items, array)), plans)
     best, data = min(candidates, key=lambda pair: len(pair[1]) + len(pair[0].labels))
     return replace(array, plan=best, data=data)
 

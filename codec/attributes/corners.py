@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels
+from ebz.codec import _kernels, threads
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding
 from ebz.codec.attributes.bundles import Bundle, bundles
@@ -22,17 +22,19 @@ def encode(
     attributes: Attributes, order: npt.NDArray[Any], sites: Sites, precision: AttributePrecision
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source corner of each corner of the output."""
-    return [
-        _encode(replace(bundle, values=bundle.values[order]), sites, precision)
-        for bundle in bundles(attributes, precision.of)
-    ]
+
+    def coded(bundle: Bundle) -> EncodedArray:
+        return _encode(replace(bundle, values=bundle.values[order]), sites, precision)
+
+    return threads.run(coded, bundles(attributes, precision.of))
 
 
 def decode(arrays: list[EncodedArray], sites: Sites) -> Attributes:
     """The attributes of the 3m corners of the output; raises CorruptError."""
     named: Attributes = {}
-    for array in arrays:
-        named |= coding.by_name(array, _decode(array, sites))
+    values = threads.run(lambda array: _decode(array, sites), arrays)
+    for array, decoded in zip(arrays, values, strict=True):
+        named |= coding.by_name(array, decoded)
     return named
 
 
