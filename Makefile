@@ -9,7 +9,7 @@ SOURCES := $(shell find api codec formats cli -name '*.py' -o -name '*.pyi' -o -
 # Python files are links in the editable install: only a new file list needs a reinstall.
 KERNELS := $(filter codec/kernels/%,$(SOURCES))
 
-.PHONY: install demo test check stubs bench clean FORCE
+.PHONY: install demo test check stubs bench picture clean FORCE
 
 install: $(STAMP)
 
@@ -42,7 +42,11 @@ stubs: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[bench]'
-	$(BIN)/python -m tests.bench.run $(BENCH)
+	$(BIN)/python -m tests.bench.run --json build/bench.json $(BENCH)
+
+# Of what the last `make bench` measured.
+picture: $(STAMP)
+	$(BIN)/python -m tests.bench.picture build/bench.json docs/size-speed.svg
 
 clean:
 	rm -rf $(VENV) build dist *.egg-info

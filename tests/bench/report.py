@@ -29,11 +29,11 @@ def _grid(rows: list[Row]) -> str:
     ]
     for codec in dict.fromkeys(row["codec"] for row in rows):
         mine = [row for row in rows if row["codec"] == codec]
-        cells = [codec, f"{_mean(8 * r['bytes'] / r['vertices'] for r in mine):.2f}"]
+        cells = [codec, f"{mean(8 * r['bytes'] / r['vertices'] for r in mine):.2f}"]
         pairs = [(row, reference[row["mesh"]]) for row in mine if row["mesh"] in reference]
         cells.append(_ratio(r["bytes"] / ref["bytes"] for r, ref in pairs))
         for key in ("encode_s", "decode_s"):
-            cells.append(f"{_mean(r['faces'] / r[key] / 1e6 for r in mine):.2f}")
+            cells.append(f"{mean(r['faces'] / r[key] / 1e6 for r in mine):.2f}")
         for key in ("encode_s", "decode_s"):
             cells.append(_ratio(ref[key] / r[key] for r, ref in pairs))
         lines.append("| " + " | ".join(cells) + " |")
@@ -42,9 +42,10 @@ def _grid(rows: list[Row]) -> str:
 
 def _ratio(values: Iterable[float]) -> str:
     values = list(values)
-    return f"{_mean(values):.2f}" if values else ""
+    return f"{mean(values):.2f}" if values else ""
 
 
-def _mean(values: Iterable[float]) -> float:
+def mean(values: Iterable[float]) -> float:
+    """The geometric mean."""
     logs = [math.log(value) for value in values]
     return math.exp(sum(logs) / len(logs))

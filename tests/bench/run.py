@@ -9,6 +9,7 @@ seconds on one thread; machines differ: what counts is the ratio to Draco level 
 
 import argparse
 import json
+import os
 import platform
 import statistics
 import sys
@@ -67,10 +68,22 @@ def _about() -> dict[str, Any]:
     return {
         "command": " ".join(["python -m tests.bench.run", *sys.argv[1:]]),
         "python": platform.python_version(),
-        "processor": platform.machine(),
+        "machine": platform.machine(),
+        "processor": _processor(),
+        "cores": os.cpu_count(),
         "system": platform.system(),
         "versions": peers.versions(),
     }
+
+
+def _processor() -> str:
+    """The model of the processor, where the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
+    except OSError:
+        return platform.processor()
+    models = (line.partition(": ")[2] for line in lines if line.startswith("model name"))
+    return next(models, platform.processor())
 
 
 def _meshes(folder: Path | None) -> Iterator[tuple[str, ebz.Mesh]]:
@@ -90,7 +103,7 @@ def _read(path: Path) -> ebz.Mesh | None:
         mesh = ebz.read(path, triangulate=True)
     except (ebz.EbzError, OSError):
         return None
-    if not np.isfinite(mesh.vertices).all():
+    if isinstance(mesh, ebz.Scene) or not np.isfinite(mesh.vertices).all():
         return None
     used, faces = np.unique(mesh.faces, return_inverse=True)
     vertices = mesh.vertices[used].astype(np.float32)
