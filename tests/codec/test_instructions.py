@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 import ebz
 from ebz.codec import _kernels
@@ -27,6 +27,7 @@ def both(mesh: ebz.Mesh, level: int) -> tuple[bytes, bytes]:
     return files[0], files[1]
 
 
+@settings(deadline=None)
 @given(meshes())
 def test_small_meshes(mesh: ebz.Mesh) -> None:
     for level in (1, 3, 6, 9):

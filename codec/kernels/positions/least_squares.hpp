@@ -22,11 +22,17 @@ public:
 
     bool seasoned() const { return n_ > 1000; }
 
-    void add(const Vector& x, double y, double weight) {
+    void add(const Vector& x, double y, double weight) { add(std::array<Vector, 1>{x}, std::array{y}, weight); }
+
+    // Several observations of one weight; sums are in their order.
+    template <size_t n>
+    void add(const std::array<Vector, n>& x, const std::array<double, n>& y, double weight) {
         for (size_t i = 0; i < D; ++i) {
-            const double wx = weight * x[i];
-            for (size_t j = 0; j <= i; ++j) a_[i][j] += wx * x[j];
-            b_[i] += wx * y;
+            std::array<double, n> wx;
+            for (size_t k = 0; k < n; ++k) wx[k] = weight * x[k][i];
+            for (size_t j = 0; j <= i; ++j)
+                for (size_t k = 0; k < n; ++k) a_[i][j] += wx[k] * x[k][j];
+            for (size_t k = 0; k < n; ++k) b_[i] += wx[k] * y[k];
         }
     }
 

@@ -134,14 +134,12 @@ void Predictor::learn(int32_t v, const Surroundings& s, const Prediction& p, con
         double energy = 1;
         for (const auto& x : inputs_[i])
             for (double y : x) energy += y * y;
-        for (size_t d = 0; d < 3; ++d) fit.add(inputs_[i][d], position[d] - midpoints_[i][d], 9.0 / energy);
+        fit.add(inputs_[i], position - midpoints_[i], 9.0 / energy);
         fit.tick();
     }
     Blend& blend = blends_[static_cast<size_t>(s.n_parallelograms)];
     const double weight = 1.0 / (1.0 + p.size * p.size);
-    for (size_t d = 0; d < 3; ++d) {
-        blend.add(blend_inputs(p, d), position[d] - p.plain[d], weight);
-    }
+    blend.add(std::array{blend_inputs(p, 0), blend_inputs(p, 1), blend_inputs(p, 2)}, position - p.plain, weight);
     blend.tick();
 
     Trace& t = traces_[static_cast<size_t>(v)];
