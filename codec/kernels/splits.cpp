@@ -42,15 +42,17 @@ public:
           point_(point),
           vertex_(vertex),
           coder_(coder),
-          several_(n_points),
+          several_(n_points, unknown),
           n_splits_(n_points),
           n_vertices_(n_points),
           latest_(n_points, none),
           runs_(opposite.size()) {}
 
-    void run() {
-        if constexpr (Coder::encoding) find_several();
-        code_several();
+    // are_told: whether it is told first which points have several vertices; else all may.
+    void run(bool are_told) {
+        are_told = coder_.raw(are_told, 1) != 0;
+        if (!are_told) std::fill(several_.begin(), several_.end(), 1);
+        code_several(Coder::encoding ? find_several() : std::vector<uint8_t>(several_.size()));
         for (Index h = 0; h < n_corners(); ++h) {
             if (opposite_[h] > h) edge(h, opposite_[h]);
         }
@@ -61,28 +63,36 @@ public:
     std::vector<Index> points() { return std::move(points_); }
 
 private:
-    static constexpr uint8_t max_splits = 3;
+    static constexpr uint8_t max_splits = 3, unknown = 2;
     static constexpr Index max_contexts = 3;
 
     Index n_corners() const { return static_cast<Index>(opposite_.size()); }
 
-    void find_several() {
+    std::vector<uint8_t> find_several() const {
+        std::vector<uint8_t> several(several_.size());
         std::vector<Index> one(several_.size(), none);
         for (Index c = 0; c < n_corners(); ++c) {
             Index& vertex = one[point_[c]];
-            several_[point_[c]] |= vertex != none && vertex != vertex_[c];
+            several[point_[c]] |= vertex != none && vertex != vertex_[c];
             vertex = vertex_[c];
         }
+        return several;
     }
 
     // Along seams, neighbours have several vertices too.
-    void code_several() {
-        uint32_t latest = 0;
-        for (uint8_t& several : several_) {
-            several = several_bit_[latest].code(coder_, several != 0);
-            latest = (latest << 1 | several) & 7;
+    void code_several(const std::vector<uint8_t>& truth) {
+        bool latest = false;
+        for (Index c = 0; c < n_corners(); ++c) {
+            const Index p = point_[c];
+            if (several_[p] != unknown) continue;
+            const Index beyond = opposite_[next(c)];
+            const bool apex = beyond != none && has_several(previous(beyond));
+            const int context = has_several(next(c)) + 2 * has_several(previous(c)) + 4 * latest + 8 * apex;
+            several_[p] = latest = several_bit_[context].code(coder_, truth[p] != 0);
         }
     }
+
+    bool has_several(Index c) const { return several_[point_[c]] == 1; }
 
     void edge(Index h, Index g) {
         const bool split = several_[point_[h]] && end(h, next(g), 0);
@@ -156,7 +166,7 @@ private:
     std::vector<Index> before_;       // the point's vertex before each vertex
     uint64_t n_steps_ = 0;
     Runs runs_;
-    std::array<AdaptiveBit, 8> several_bit_;
+    std::array<AdaptiveBit, 16> several_bit_;
     std::array<std::array<AdaptiveBit, max_splits + 1>, 3> split_;
     std::array<AdaptiveBit, max_contexts> again_;
     IntegerModel back_;
@@ -166,10 +176,14 @@ private:
 
 std::vector<uint8_t> encode_splits(std::span<const Index> opposite, std::span<const Index> point,
                                    Index n_points, std::span<const Index> vertex) {
-    std::vector<Index> copy(vertex.begin(), vertex.end());
-    RangeEncoder coder;
-    SplitCoder<RangeEncoder>(opposite, point, n_points, copy, coder).run();
-    return coder.finish();
+    const auto encoded = [&](bool are_told) {
+        std::vector<Index> copy(vertex.begin(), vertex.end());
+        RangeEncoder coder;
+        SplitCoder<RangeEncoder>(opposite, point, n_points, copy, coder).run(are_told);
+        return coder.finish();
+    };
+    std::vector<uint8_t> told = encoded(true), untold = encoded(false);
+    return untold.size() < told.size() ? untold : told;
 }
 
 DecodedSplits decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
@@ -177,7 +191,7 @@ DecodedSplits decode_splits(std::span<const uint8_t> bytes, std::span<const Inde
     std::vector<Index> vertex(opposite.size());
     RangeDecoder coder(bytes);
     SplitCoder<RangeDecoder> splits(opposite, point, n_points, vertex, coder);
-    splits.run();
+    splits.run(false);
     return {std::move(vertex), splits.points()};
 }
 
