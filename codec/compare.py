@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import connectivity, matching, welding
+from ebz.codec import connectivity, cycles, matching, welding
 from ebz.codec import points as free_points
 from ebz.codec.attributes import comparison
 from ebz.codec.attributes.comparison import Lattices
@@ -105,7 +105,7 @@ def compare(
 
 
 def _refusal(decoded: Mesh, difference: str, checked: list[str]) -> Verification:
-    n_vertices, n_faces = len(decoded.vertices), len(decoded.faces)
+    n_vertices, n_faces = decoded.n_vertices, decoded.n_faces
     return Verification(False, checked, n_vertices, n_faces, first_difference=difference)
 
 
@@ -126,7 +126,7 @@ def _verdict(
         equal=difference is None,
         checked=checked,
         vertices=len(decoded.vertices),
-        faces=len(decoded.faces),
+        faces=decoded.n_faces,
         first_difference=difference,
         matched_by=match.how,
         allowed_error=allowed,
@@ -155,7 +155,8 @@ def allowed_error(lattice: Lattice, original: Mesh) -> float:
 def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
     for what, got, wanted in (
         ("number of vertices", len(decoded.vertices), len(original.vertices)),
-        ("number of faces", len(decoded.faces), len(original.faces)),
+        ("number of faces", decoded.n_faces, original.n_faces),
+        ("number of corners", decoded.n_corners, original.n_corners),
         ("type of coordinates", decoded.vertices.dtype.name, original.vertices.dtype.name),
     ):
         if got != wanted:
@@ -173,29 +174,49 @@ def _different_kind(decoded: Mesh, original: Mesh) -> str | None:
 
 def _by_order(decoded: Mesh, original: Mesh) -> _Correspondence | str:
     """The same indices, or the name of the first face that is another."""
-    differs = (decoded.faces != original.faces).any(axis=1)
-    if differs.any():
-        face = int(np.argmax(differs))
-        got, wanted = (mesh.faces[face].tolist() for mesh in (decoded, original))
+    face = _first_other_face(decoded, original)
+    if face is not None:
+        got, wanted = (
+            mesh.corners[mesh.offsets[face] : mesh.offsets[face + 1]].tolist()
+            for mesh in (decoded, original)
+        )
         return f"order: face {face} is {got}, not {wanted}"
     corners = np.arange(decoded.n_corners)
     vertices, faces = np.arange(decoded.n_vertices), np.arange(decoded.n_faces)
     return _Correspondence(vertices, faces, corners, "order")
 
 
+def _first_other_face(decoded: Mesh, original: Mesh) -> int | None:
+    if np.array_equal(decoded.offsets, original.offsets):
+        differs = np.flatnonzero(decoded.corners != original.corners)
+        if not len(differs):
+            return None
+        return int(np.searchsorted(decoded.offsets, differs[0], side="right")) - 1
+    n_same = int(np.argmax(decoded.offsets != original.offsets))
+    same = decoded.corners[: decoded.offsets[n_same - 1]]
+    differs = np.flatnonzero(same != original.corners[: len(same)])
+    at = len(same) if not len(differs) else int(differs[0])
+    return int(np.searchsorted(decoded.offsets[:n_same], at, side="right")) - 1
+
+
 def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspondence | None:
-    points = _points(original.vertices, lattice)
+    points, offsets = _points(original.vertices, lattice), original.face_offsets
     stored = _restored(points, original.vertices)
-    welded = welding.weld(original.faces, stored)
-    surface, order = connectivity.traverse(welded, len(original.vertices))
+    welded = welding.weld(original.faces, stored, offsets)
+    surface, order = connectivity.traverse(welded, len(original.vertices), offsets)
     arrangement = welding.arrange(original.faces, welded, surface, order)
     arrangement, _ = free_points.encode(arrangement, points.integers)
     order = replace(order, vertices=arrangement.vertices)
     number = np.empty(len(order.vertices), np.int64)
     number[order.vertices] = np.arange(len(order.vertices))
-    faces = number[original.faces[order.faces]]
-    if not np.array_equal(matching.rotated(faces), matching.rotated(decoded.faces)):
-        return None
+    for faces, rows in cycles.by_size(decoded.offsets):
+        theirs = order.faces[faces]
+        if not (np.diff(original.offsets)[theirs] == rows.shape[1]).all():
+            return None
+        wanted = original.offsets[theirs][:, None] + np.arange(rows.shape[1])
+        ours = decoded.corners[rows].astype(np.int64)
+        if not cycles.turns_between(ours, number[original.corners[wanted]])[1].all():
+            return None
     corners = _corresponding_corners(decoded, original, order.vertices, order.faces)
     return _Correspondence(order.vertices, order.faces, corners, "traversal")
 
@@ -203,21 +224,30 @@ def _by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> _Correspon
 def _corresponding_corners(decoded: Mesh, original: Mesh, vertices: Order, faces: Order) -> Order:
     """The corner of the original for each of the decoded mesh, whose faces may be rotated.
 
-    Where several corners fit, the first whose values are the same.
+    Where several corners fit, one whose values are the same.
     """
-    got, wanted = vertices[decoded.faces], original.faces[faces]
-    turns = (np.arange(3)[:, None] + np.arange(3)) % 3
-    candidates = 3 * np.asarray(faces, np.int64)[:, None, None] + turns
-    fits = np.stack([(got == wanted[:, turn]).all(axis=1) for turn in turns], axis=1)
-    if (fits.sum(axis=1) > 1).any():
-        ours, theirs = (_bytes(m.corner_attributes, m.n_corners) for m in (decoded, original))
-        same = (ours.reshape(len(faces), 1, 3, ours.shape[1]) == theirs[candidates]).all(
-            axis=(2, 3)
-        )
-        fits = np.where((fits & same).any(axis=1)[:, None], fits & same, fits)
-    turn = np.argmax(fits, axis=1)
-    corners: Order = candidates[np.arange(len(faces)), turn].reshape(-1)
+    got = np.asarray(vertices, np.int64)[decoded.corners]
+    wanted = original.corners.astype(np.int64)
+    got_values, wanted_values = _with_values(decoded, original, got, wanted)
+    corners = np.empty(decoded.n_corners, np.int64)
+    for rows, ours in cycles.by_size(decoded.offsets):
+        theirs = original.offsets[faces[rows]][:, None] + np.arange(ours.shape[1])
+        turns, _ = cycles.turns_between(got[ours], wanted[theirs])
+        if decoded.corner_attributes:
+            by_values, same = cycles.turns_between(got_values[ours], wanted_values[theirs])
+            turns = np.where(same, by_values, turns)
+        corners[ours] = cycles.turned(theirs, turns)
     return corners
+
+
+def _with_values(decoded: Mesh, original: Mesh, got: Order, wanted: Order) -> tuple[Order, Order]:
+    """Numbers of the corners, equal where vertices and the values of attributes are."""
+    vertices = np.concatenate([got, wanted])
+    if not decoded.corner_attributes:
+        return got, wanted
+    data = np.concatenate([_bytes(m.corner_attributes, m.n_corners) for m in (decoded, original)])
+    ranks = matching.ranks(np.column_stack([matching.as_bytes(vertices), data]))
+    return ranks[: len(got)], ranks[len(got) :]
 
 
 def _by_data(decoded: Mesh, original: Mesh, lattice: Lattice) -> tuple[Order, Order] | str | None:
@@ -228,11 +258,12 @@ def _by_data(decoded: Mesh, original: Mesh, lattice: Lattice) -> tuple[Order, Or
 
 def _labelled(mesh: Mesh, vertices: npt.NDArray[Any]) -> matching.Labelled:
     return matching.Labelled(
-        mesh.faces,
+        mesh.corners,
+        mesh.offsets,
         np.column_stack(
             [matching.as_bytes(vertices), _bytes(mesh.vertex_attributes, len(vertices))]
         ),
-        _bytes(mesh.face_attributes, len(mesh.faces)),
+        _bytes(mesh.face_attributes, mesh.n_faces),
     )
 
 
@@ -243,7 +274,7 @@ def _bytes(attributes: Attributes, n: int) -> npt.NDArray[np.uint8]:
 
 
 def _different_face_data(decoded: Mesh, original: Mesh) -> str | None:
-    n_faces = len(decoded.faces)
+    n_faces = decoded.n_faces
     for name in decoded.face_attributes:
         ours, theirs = (
             _bytes({name: mesh.face_attributes[name]}, n_faces) for mesh in (decoded, original)

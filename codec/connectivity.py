@@ -1,24 +1,25 @@
-"""Triangles <-> a CLRSE word, the integers beside it, and the gluing of its pieces.
+"""Faces <-> a CLRSE word, the integers beside it, and the gluing of its pieces.
 
 The word codes oriented manifold pieces; where the mesh is not a manifold, several vertices of the
 pieces are one vertex of the mesh, and the gluing says which.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels, threads
-from ebz.codec.errors import CorruptError, MeshError, corrupt_at
+from ebz.codec import _kernels, polygons, threads
+from ebz.codec.errors import CorruptError, MeshError, OptionError, corrupt_at
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import Table
+from ebz.codec.polygons import PolygonCorners, PolygonCounts, PolygonSource
 from ebz.codec.specials import decode_specials, encode_specials
 
 Int32s = npt.NDArray[np.int32]
@@ -31,8 +32,8 @@ class WordCounts:
     """The integers that frame a word.
 
     n_symbols: its length.  n_closed: components without a boundary, whose first triangle has no
-    symbol.  n_single: components of one triangle.  n_specials: special S.  n_copies: piece vertices
-    that are glued to an earlier one.
+    symbol.  n_single: components of one face.  n_specials: special S.  n_copies: piece vertices
+    that are glued to an earlier one.  polygons: None where all faces are triangles.
     """
 
     n_symbols: int
@@ -40,25 +41,36 @@ class WordCounts:
     n_single: int
     n_specials: int
     n_copies: int
+    polygons: PolygonCounts | None = None
+
+    @property
+    def n_triangles(self) -> int:
+        return self.n_symbols + self.n_closed
 
     @property
     def n_faces(self) -> int:
-        return self.n_symbols + self.n_closed
+        return self.n_triangles if self.polygons is None else self.polygons.n_faces
+
+    @property
+    def n_corners(self) -> int:
+        return 3 * self.n_triangles if self.polygons is None else self.polygons.n_corners
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Corners in output order: half-edge 3i is the gate of face i.
+    """Corners of triangles in output order: half-edge 3i is the gate of triangle i.
 
     opposite: (3m,) the half-edge across, -1 on a boundary.  piece_vertex: (3m,) vertices of the
     manifold pieces.  vertex_of_piece: the mesh vertex of each, numbered by first use.
     n_vertices: of the mesh, those that faces use.
+    polygons: the faces that the triangles make; None where they are the faces.
     """
 
     opposite: Int32s
     piece_vertex: Int32s
     vertex_of_piece: Int32s
     n_vertices: int
+    polygons: PolygonCorners | None = None
 
     @cached_property
     def vertex(self) -> Int32s:
@@ -82,7 +94,7 @@ class EncodedWord:
     model: WordModel
     symbols: npt.NDArray[np.uint8]  # C, L, R, S, E as 0 to 4, first triangle first
     specials: Int64s  # (2 n_specials,) position in the word, half-edge met
-    word: bytes  # the symbols from the last to the first, under the model
+    word: bytes  # the symbols from the last to the first, under the model, and marks of polygons
     special_integers: bytes  # b"" where an adaptive model codes them in the word
     gluing: bytes
 
@@ -91,17 +103,24 @@ class EncodedWord:
 class OutputOrder:
     """Where the faces and vertices of the decoded mesh come from.
 
-    corners: (m,) the corner of the source that becomes the first corner of each face.
+    corners: (t,) the corner of the source that becomes the first corner of each triangle.
     vertices: (n,) the source vertex of each vertex; those that no face uses come last.
+    polygons: None where triangles are the faces.
     """
 
     corners: Int32s
     vertices: Int64s
+    polygons: PolygonSource | None = None
 
     @property
     def faces(self) -> Int32s:
         """(m,) the source face of each face."""
-        return self.corners // 3
+        return self.corners // 3 if self.polygons is None else self.polygons.faces
+
+    @property
+    def rotations(self) -> Int32s:
+        """(m,) which corner of the source face comes first in each face."""
+        return self.corners % 3 if self.polygons is None else self.polygons.rotations
 
     def number_of(self, vertices: npt.NDArray[Any]) -> Int64s:
         """The numbers of source vertices in the output."""
@@ -111,28 +130,37 @@ class OutputOrder:
 
     @property
     def all_corners(self) -> Int32s:
-        """(3m,) the source corner of each corner."""
+        """(3t,) the corner of the source that becomes each corner of a triangle."""
+        if self.polygons is not None:
+            return self.polygons.corners
         second = _next(self.corners)
         return np.stack([self.corners, second, _next(second)], axis=1).reshape(-1)
 
 
 def encode(
-    faces: npt.NDArray[Any], n_vertices: int, models: Sequence[WordModel]
+    faces: npt.NDArray[Any],
+    n_vertices: int,
+    models: Sequence[WordModel],
+    offsets: Int64s | None = None,
 ) -> tuple[EncodedWord, Surface, OutputOrder]:
-    """The word of any list of triangles under the model that makes it shortest.
+    """The word of any list of faces under the model that makes it shortest.
 
-    Linear time but for sorting what is not manifold.
+    faces: (m, 3), or (k,) corners of polygons beside (m + 1,) offsets, for which tables are no
+    models.  Linear time but for sorting what is not manifold.
 
-    Raises MeshError where there are more faces or vertices than can be coded.
+    Raises MeshError where there are more faces or vertices than can be coded, OptionError where
+    there is no model for polygons.
     """
-    kernel, surface, order = _traverse(faces, n_vertices)
-    symbols, specials, n_closed, n_single = kernel
+    traversal, surface, order = _traverse(faces, n_vertices, offsets)
     copies = _copies(surface)
-    counts = WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, len(copies))
+    counts = replace(traversal.counts, n_copies=len(copies))
     gluing = _encode_gluing(copies, surface.vertex_of_piece)
+    if offsets is not None:
+        models = _models_of_polygons(models)
 
     def under(model: WordModel) -> EncodedWord:
-        streams = _encode_word(symbols, specials, counts, model)
+        streams = _encode_word(traversal, model)
+        symbols, specials = traversal.symbols, traversal.specials
         return EncodedWord(counts, model, symbols, specials, *streams, gluing)
 
     words = threads.run(under, models)
@@ -152,29 +180,51 @@ def decode(
 
     place: what errors call the parts of the file.
     """
-    (symbols, opposite, piece_vertex, n_pieces), specials = _decode_word(
+    (symbols, opposite, piece_vertex, n_pieces), specials, corners = _decode_word(
         word, special_integers, counts, model, place
     )
     with corrupt_at(place("gluing")):
         vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
     encoded = EncodedWord(counts, model, symbols, specials, word, special_integers, gluing)
-    return encoded, Surface(opposite, piece_vertex, vertex_of_piece, n_pieces - counts.n_copies)
+    n_used = n_pieces - counts.n_copies
+    return encoded, Surface(opposite, piece_vertex, vertex_of_piece, n_used, corners)
 
 
-def traverse(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Surface, OutputOrder]:
+def traverse(
+    faces: npt.NDArray[Any], n_vertices: int, offsets: Int64s | None = None
+) -> tuple[Surface, OutputOrder]:
     """The order in which a mesh with these faces would be decoded."""
-    _, surface, order = _traverse(faces, n_vertices)
+    _, surface, order = _traverse(faces, n_vertices, offsets)
     return surface, order
 
 
-def _encode_word(
-    symbols: npt.NDArray[np.uint8], specials: Int64s, counts: WordCounts, model: WordModel
-) -> tuple[bytes, bytes]:
+def _models_of_polygons(models: Sequence[WordModel]) -> list[WordModel]:
+    adaptive = [model for model in models if isinstance(model, Effort)]
+    if not adaptive:
+        raise OptionError("tables are for triangles: polygons need an adaptive model")
+    return [max(model, Effort.FAST) for model in adaptive]
+
+
+@dataclass(frozen=True)
+class _Traversal:
+    """What the kernels find; marks: none for triangles."""
+
+    counts: WordCounts
+    symbols: npt.NDArray[np.uint8]
+    specials: Int64s
+    marks: npt.NDArray[np.uint8]
+
+
+def _encode_word(traversal: _Traversal, model: WordModel) -> tuple[bytes, bytes]:
     """The word and the integers of its special S, which adaptive models code within the word."""
+    counts, symbols, specials = traversal.counts, traversal.symbols, traversal.specials
     if isinstance(model, AnyTable):
         word = _kernels.encode_symbols(symbols, specials, _frozen(model))
         return word, encode_specials(specials, counts.n_symbols)
     sizes = counts.n_closed, counts.n_single
+    if counts.polygons is not None:
+        marks = traversal.marks
+        return _kernels.encode_polygon_word(symbols, marks, *sizes, specials, model), b""
     return _kernels.encode_adaptive(symbols, *sizes, specials, model), b""
 
 
@@ -184,7 +234,7 @@ def _decode_word(
     counts: WordCounts,
     model: WordModel,
     place: Callable[[str], str],
-) -> tuple[tuple[npt.NDArray[np.uint8], Int32s, Int32s, int], Int64s]:
+) -> tuple[tuple[npt.NDArray[np.uint8], Int32s, Int32s, int], Int64s, PolygonCorners | None]:
     data = np.frombuffer(word, np.uint8)
     sizes = counts.n_symbols, counts.n_closed, counts.n_single
     if isinstance(model, AnyTable):
@@ -192,9 +242,26 @@ def _decode_word(
             specials = decode_specials(special_integers, counts.n_specials, counts.n_symbols)
         with corrupt_at(place("word")):
             frozen = _frozen(model)
-            return _kernels.decode_connectivity(data, *sizes, specials, frozen), specials
+            return _kernels.decode_connectivity(data, *sizes, specials, frozen), specials, None
     with corrupt_at(place("word")):
-        return _kernels.decode_adaptive(data, *sizes, counts.n_specials, model)
+        if counts.polygons is None:
+            return *_kernels.decode_adaptive(data, *sizes, counts.n_specials, model), None
+        found = _kernels.decode_polygon_word(data, *sizes, counts.n_specials, model)
+        arrays, specials, marks = found
+        return arrays, specials, _decode_corners(arrays[1], marks, counts.polygons)
+
+
+def _decode_corners(
+    opposite: Int32s, marks: npt.NDArray[np.uint8], declared: PolygonCounts
+) -> PolygonCorners:
+    offsets, corner = _kernels.corners_of_polygons(opposite, marks)
+    n_faces = len(offsets) - 1 + declared.n_empty
+    if n_faces != declared.n_faces or len(corner) != declared.n_corners:
+        raise CorruptError(
+            f"{n_faces} polygons of {len(corner)} corners, where the header has "
+            f"{declared.n_faces} of {declared.n_corners}"
+        )
+    return PolygonCorners(polygons.with_empty(offsets, declared.n_empty), corner)
 
 
 def _frozen(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
@@ -208,23 +275,87 @@ def _frozen(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
 
 
 def _traverse(
-    faces: npt.NDArray[Any], n_vertices: int
-) -> tuple[tuple[npt.NDArray[np.uint8], Int64s, int, int], Surface, OutputOrder]:
-    if len(faces) > MAX_FACES or n_vertices > MAX_VERTICES:
-        raise MeshError(
-            f"{len(faces)} faces and {n_vertices} vertices: at most {MAX_FACES} and {MAX_VERTICES}"
-        )
+    faces: npt.NDArray[Any], n_vertices: int, offsets: Int64s | None
+) -> tuple[_Traversal, Surface, OutputOrder]:
+    _require_codable(faces, n_vertices, offsets)
     used, compact = _compact(faces, n_vertices)
     n_compact = n_vertices if used is None else len(used)
-    symbols, specials, n_closed, n_single, corners, opposite, piece_vertex, source = (
-        _kernels.encode_connectivity(compact.reshape(-1), n_compact)
+    corners = compact.reshape(-1)
+    if offsets is None:
+        traversal, surface, order = _traverse_triangles(corners, n_compact)
+    else:
+        traversal, surface, order = _traverse_polygons(corners, n_compact, offsets)
+    vertices = order.vertices if used is None else used[order.vertices]
+    return traversal, surface, replace(order, vertices=_with_isolated(vertices, n_vertices))
+
+
+def _require_codable(faces: npt.NDArray[Any], n_vertices: int, offsets: Int64s | None) -> None:
+    n_faces = len(faces) if offsets is None else max(len(faces), len(offsets))
+    if n_faces > MAX_FACES or n_vertices > MAX_VERTICES:
+        raise MeshError(
+            f"{n_faces} faces and {n_vertices} vertices: at most {MAX_FACES} and {MAX_VERTICES}"
+        )
+
+
+def _traverse_triangles(
+    compact: Int32s, n_vertices: int
+) -> tuple[_Traversal, Surface, OutputOrder]:
+    symbols, specials, n_closed, n_single, gates, opposite, piece_vertex, source = (
+        _kernels.encode_connectivity(compact, n_vertices)
     )
-    vertex_of_piece, firsts = _kernels.number_by_first_use(source, n_compact)
-    order = firsts.astype(np.int64) if used is None else used[firsts]
+    vertex_of_piece, firsts = _kernels.number_by_first_use(source, n_vertices)
     return (
-        (symbols, specials, n_closed, n_single),
+        _Traversal(
+            WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, 0),
+            symbols,
+            specials,
+            np.zeros(0, np.uint8),
+        ),
         Surface(opposite, piece_vertex, vertex_of_piece, len(firsts)),
-        OutputOrder(corners, _with_isolated(order, n_vertices)),
+        OutputOrder(gates, firsts.astype(np.int64)),
+    )
+
+
+def _traverse_polygons(
+    compact: Int32s, n_vertices: int, offsets: Int64s
+) -> tuple[_Traversal, Surface, OutputOrder]:
+    padded = polygons.padded(offsets)
+    symbols, specials, n_closed, n_single, marks, opposite, piece_vertex, n_pieces, corners = (
+        _kernels.encode_polygons(compact[padded.corner], padded.offsets, n_vertices)
+    )
+    padded.mark_short(marks, corners[::3], n_closed)
+    new_offsets, corner = _kernels.corners_of_polygons(opposite, marks)
+    first = corners[corner[new_offsets[:-1]]]
+    own = padded.face_of(first)
+    n_empty = len(offsets) - 1 - len(padded.faces)
+    empty = np.flatnonzero(np.diff(offsets) == 0).astype(np.int32)
+    source = np.zeros(n_pieces, np.int32)
+    source[piece_vertex] = compact[padded.corner[corners]]
+    vertex_of_piece, firsts = _kernels.number_by_first_use(source, n_vertices)
+    counts = PolygonCounts(len(offsets) - 1, n_empty, len(compact))
+    return (
+        _Traversal(
+            WordCounts(len(symbols), n_closed, n_single, len(specials) // 2, 0, counts),
+            symbols,
+            specials,
+            marks,
+        ),
+        Surface(
+            opposite,
+            piece_vertex,
+            vertex_of_piece,
+            len(firsts),
+            PolygonCorners(polygons.with_empty(new_offsets, n_empty), corner),
+        ),
+        OutputOrder(
+            padded.corner[corners[::3]],
+            firsts.astype(np.int64),
+            PolygonSource(
+                np.concatenate([padded.faces[own], empty]),
+                np.concatenate([first - padded.offsets[own], np.zeros(n_empty, np.int32)]),
+                padded.corner[corners],
+            ),
+        ),
     )
 
 

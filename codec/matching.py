@@ -1,7 +1,7 @@
 """Which vertex is which in two meshes whose order differs: by data, refined along the faces.
 
 Reference: colour refinement, B. Weisfeiler and A. Leman, "The reduction of a graph to canonical
-form", 1968, on vertices and triangles.
+form", 1968, on vertices and faces.
 """
 
 from dataclasses import dataclass
@@ -10,15 +10,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec import cycles
+
 Colours = npt.NDArray[np.int64]
 MAX_ROUNDS = 100
 
 
 @dataclass(frozen=True)
 class Labelled:
-    """faces: (m, 3) indices; data: (n, k) bytes of each vertex; face_data: (m, j) of each face."""
+    """corners, offsets: of the faces; data: (n, k) bytes of each vertex; face_data: (m, j)."""
 
-    faces: npt.NDArray[Any]
+    corners: npt.NDArray[Any]
+    offsets: npt.NDArray[np.int64]
     data: npt.NDArray[np.uint8]
     face_data: npt.NDArray[np.uint8]
 
@@ -29,7 +32,7 @@ def match(a: Labelled, b: Labelled) -> tuple[Colours, Colours] | str | None:
     Faces with the same vertices are told apart by their data; other differences of data between
     faces are for the caller to find.
     """
-    colours = _ranks(np.concatenate([_rows(a.data), _rows(b.data)]))
+    colours = ranks(np.concatenate([_rows(a.data), _rows(b.data)]))
     ours, theirs = np.split(colours, [len(a.data)])
     if not _same_counts(ours, theirs):
         return "vertex data"
@@ -43,13 +46,6 @@ def match(a: Labelled, b: Labelled) -> tuple[Colours, Colours] | str | None:
         if int(max(ours.max(), theirs.max())) + 1 == n_colours:
             break
     return None
-
-
-def rotated(faces: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
-    """Each face with its smallest rotation first: equal for faces that differ in rotation only."""
-    candidates = np.stack([np.roll(faces, -turn, axis=1) for turn in range(3)], axis=1)
-    order = np.lexsort(np.moveaxis(candidates, 2, 0)[::-1], axis=1)[:, :1, None]
-    return np.take_along_axis(candidates, order, axis=1)[:, 0].astype(np.int64)
 
 
 def as_bytes(values: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
@@ -71,21 +67,32 @@ def _by_colours(
     """The correspondence when every vertex has a colour of its own."""
     vertex_of_colour = np.empty(len(theirs), np.int64)
     vertex_of_colour[theirs] = np.arange(len(theirs))
-    left, right = rotated(ours[a.faces]), rotated(theirs[b.faces])
-    left_order = np.lexsort([*a.face_data.T, *left.T])
-    right_order = np.lexsort([*b.face_data.T, *right.T])
-    if not np.array_equal(left[left_order], right[right_order]):
+    sizes = [np.diff(labelled.offsets) for labelled in (a, b)]
+    if not _same_counts(*sizes):
         return "faces"
-    faces = np.empty(len(left), np.int64)
-    faces[left_order] = right_order
+    faces = np.empty(len(sizes[0]), np.int64)
+    both = zip(cycles.by_size(a.offsets), cycles.by_size(b.offsets), strict=True)
+    for (left_faces, left), (right_faces, right) in both:
+        mine, other = cycles.least(ours[a.corners[left]]), cycles.least(theirs[b.corners[right]])
+        my_order = _sorting(mine, a.face_data[left_faces])
+        other_order = _sorting(other, b.face_data[right_faces])
+        if not np.array_equal(mine[my_order], other[other_order]):
+            return "faces"
+        faces[left_faces[my_order]] = right_faces[other_order]
     return vertex_of_colour[ours], faces
+
+
+def _sorting(faces: npt.NDArray[np.int64], data: npt.NDArray[np.uint8]) -> Colours:
+    """The order of faces by their corners, then by their data."""
+    keys = [np.zeros(len(faces)), *data.T, *faces.T]
+    return np.lexsort(keys)
 
 
 def _refine(a: Labelled, b: Labelled, ours: Colours, theirs: Colours) -> Colours:
     """New colours from the old one and the multiset of what is seen along the faces at a vertex."""
-    seen = [_views(a.faces, ours, 0), _views(b.faces, theirs, len(ours))]
+    seen = [_views(a, ours, 0), _views(b, theirs, len(ours))]
     owner = np.concatenate([part[0] for part in seen])
-    view = _ranks(np.concatenate([part[1] for part in seen]))
+    view = ranks(np.concatenate([part[1] for part in seen]))
     colours = np.concatenate([ours, theirs])
     order = np.lexsort([view, owner])
     owner, view = owner[order], view[order]
@@ -94,19 +101,24 @@ def _refine(a: Labelled, b: Labelled, ours: Colours, theirs: Colours) -> Colours
     mixed = (mixed ^ (mixed >> np.uint64(29))) * np.uint64(0xBF58476D1CE4E5B9)
     sums = np.zeros(len(colours), np.uint64)
     np.add.at(sums, owner, mixed ^ (mixed >> np.uint64(32)))
-    return _ranks(np.column_stack([colours.astype(np.uint64), sums]))
+    return ranks(np.column_stack([colours.astype(np.uint64), sums]))
 
 
 def _views(
-    faces: npt.NDArray[Any], colours: Colours, first: int
+    labelled: Labelled, colours: Colours, first: int
 ) -> tuple[Colours, npt.NDArray[np.int64]]:
-    """For each corner, its vertex and the colours of the next two corners."""
-    around = [np.roll(faces, -turn, axis=1).reshape(-1) for turn in range(3)]
-    view = np.column_stack([colours[corner] for corner in around])
-    return around[0].astype(np.int64) + first, view
+    """For each corner, its vertex, the colours of the next two corners, the size of the face."""
+    owners, views = [np.zeros(0, np.int64)], [np.zeros((0, 4), np.int64)]
+    for _, rows in cycles.by_size(labelled.offsets):
+        corners = labelled.corners[rows]
+        around = [np.roll(corners, -turn, axis=1).reshape(-1) for turn in range(3)]
+        size = np.full(corners.size, rows.shape[1])
+        owners.append(around[0].astype(np.int64) + first)
+        views.append(np.column_stack([*(colours[corner] for corner in around), size]))
+    return np.concatenate(owners), np.concatenate(views)
 
 
-def _ranks(rows: npt.NDArray[Any]) -> Colours:
+def ranks(rows: npt.NDArray[Any]) -> Colours:
     """Equal rows get equal numbers from 0 on."""
     if rows.ndim == 2:
         rows = _rows(np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), -1))

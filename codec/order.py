@@ -7,18 +7,19 @@ that are numbered by first use.  Both ways are tried.
 import enum
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels
+from ebz.codec import _kernels, polygons
 from ebz.codec.connectivity import Int32s, Int64s, OutputOrder
 from ebz.codec.errors import CorruptError, corrupt_at
+from ebz.codec.polygons import PolygonCorners
 
 Array = npt.NDArray[Any]
 Bytes = npt.NDArray[np.uint8]
-Rotations = npt.NDArray[np.uint8]
 NOTHING = np.zeros(0, np.int32)
 
 
@@ -63,11 +64,13 @@ class SourceOrder:
 
     vertices, faces: the source index of each item of the output; both or neither.
     rotations: (m,) which corner of each face of the output is first in the source.
+    offsets: (m + 1,) where the corners of polygons begin in the output; None for triangles.
     """
 
     vertices: Int32s | None = None
     faces: Int32s | None = None
-    rotations: Rotations | None = None
+    rotations: Int32s | None = None
+    offsets: Int64s | None = None
 
     @property
     def any(self) -> bool:
@@ -82,37 +85,49 @@ class SourceOrder:
         """Values per face of the output, in the order of the source."""
         return _placed(values, self.faces)
 
-    def place_corners(self, faces: Int32s) -> Int32s:
-        """(m, 3) vertices of the output, as the source has them."""
-        faces = self._rotated(faces)
-        if self.vertices is not None:
-            faces = self.vertices[faces]
-        return self.place_faces(faces)
-
     def place_values(self, values: Array) -> Array:
         """Values per corner of the output, in the order of the source."""
-        by_face = values.reshape(len(values) // 3, 3, *values.shape[1:])
-        return self.place_faces(self._rotated(by_face)).reshape(values.shape)
+        if self.rotations is None and self.faces is None:
+            return values
+        return values[self._corners_of_source[0]]
 
     def source_vertices(self, vertices: Array) -> Array:
         """Vertices of the output, as the source numbers them."""
         return vertices if self.vertices is None else self.vertices[vertices]
 
-    def _rotated(self, by_face: Array) -> Array:
-        """Entries (m, 3, ...) of the corners, the source's first corner first."""
-        if self.rotations is None:
-            return by_face
-        corners = (self.rotations.astype(np.intp)[:, None] + np.arange(3)) % 3
-        rotated: Array = by_face[np.arange(len(by_face))[:, None], corners]
-        return rotated
+    @property
+    def source_offsets(self) -> Int64s | None:
+        """Where the corners of polygons begin in the source."""
+        if self.faces is None or self.offsets is None:
+            return self.offsets
+        return self._corners_of_source[1]
+
+    @cached_property
+    def _corners_of_source(self) -> tuple[Int64s, Int64s | None]:
+        """The corner of the output that each one of the source is, and the offsets there."""
+        some = self.faces if self.faces is not None else self.rotations
+        faces = self.place_faces(_counting(0 if some is None else len(some)))
+        rotations = self.rotations[faces] if self.rotations is not None else np.zeros_like(faces)
+        if self.offsets is not None:
+            return polygons.corner_index(self.offsets, faces, rotations)
+        turned = (rotations[:, None] + np.arange(3)) % 3
+        return (3 * faces.astype(np.int64)[:, None] + turned).reshape(-1), None
 
 
-def kept(order: OutputOrder, *, keep_order: bool, keep_rotation: bool) -> SourceOrder:
-    """What is to be kept of an order."""
+def kept(
+    order: OutputOrder,
+    output: PolygonCorners | None = None,
+    *,
+    keep_order: bool,
+    keep_rotation: bool,
+) -> SourceOrder:
+    """What is to be kept of an order; output: the polygons, None for triangles."""
+    sizes = 3 if output is None else np.maximum(np.diff(output.offsets), 1)
     return SourceOrder(
         order.vertices.astype(np.int32) if keep_order else None,
         order.faces if keep_order else None,
-        (-order.corners % 3).astype(np.uint8) if keep_order or keep_rotation else None,
+        (-order.rotations % sizes).astype(np.int32) if keep_order or keep_rotation else None,
+        None if output is None else output.offsets,
     )
 
 
@@ -121,7 +136,7 @@ def encode(source: SourceOrder, known: "Known") -> OrderStreams:
     vertices, faces, rotations = source.vertices, source.faces, source.rotations
     if vertices is None or faces is None:
         return OrderStreams(None, None, _rotations_alone(known, rotations))
-    if rotations is None or not len(faces):
+    if rotations is None or not len(known.corners):
         return OrderStreams(_IDENTITY if len(vertices) else None)
     before = known.encode_vertices(vertices)
     first = OrderStreams(
@@ -161,23 +176,37 @@ def decode(
             numbers = vertices if streams.vertices is not None else _counting(known.n_vertices)
             rotations = known.decode_rotations(streams.rotations, faces, numbers)
     if streams.vertices is None:
-        return SourceOrder(None, None, rotations)
+        return SourceOrder(None, None, rotations, known.offsets)
     if method == Method.ALONG_FACES:
         vertices = known.decode_vertices_along(rest, faces, rotations)
-    return SourceOrder(vertices, faces, rotations)
+    return SourceOrder(vertices, faces, rotations, known.offsets)
 
 
 class Known:
     """What both sides know when an order is coded.
 
-    opposite, vertex: (3m,) the half-edge across each, and the vertex of each corner, in output
-    order.  integers: (n, 3) the positions on their lattice.
+    opposite, vertex: (3t,) the half-edge across each, and the vertex of each corner of triangles,
+    in output order.  integers: (n, 3) the positions on their lattice.  output: the polygons.
     """
 
-    def __init__(self, opposite: Int32s, vertex: Int32s, integers: Int64s) -> None:
+    def __init__(
+        self,
+        opposite: Int32s,
+        vertex: Int32s,
+        integers: Int64s,
+        output: PolygonCorners | None = None,
+    ) -> None:
         self.corners = np.ascontiguousarray(vertex)
-        self.arrays = opposite, self.corners, integers.reshape(-1)
+        positions = integers.reshape(-1)
+        self.arrays = opposite, self.corners, positions
         self.n_vertices, self.n_faces = len(integers), len(vertex) // 3
+        self.offsets = None
+        self.face_arrays = NOTHING, *self.arrays
+        if output is not None:
+            self.offsets, self.n_faces = output.offsets, output.n_faces
+            self.corners = self.corners[output.corner]
+            across = output.across(opposite)
+            self.face_arrays = output.offsets.astype(np.int32), across, self.corners, positions
 
     def encode_vertices(self, vertices: Int32s) -> bytes:
         def code(uniform: bool) -> bytes:
@@ -191,20 +220,18 @@ class Known:
         uniform = method == Method.UNIFORM
         return _kernels.decode_vertex_order(data, *self.arrays, NOTHING, uniform)
 
-    def encode_vertices_along(self, vertices: Int32s, faces: Int32s, rotations: Rotations) -> bytes:
+    def encode_vertices_along(self, vertices: Int32s, faces: Int32s, rotations: Int32s) -> bytes:
         visits = self._first_uses(faces, rotations)
         stream = _kernels.encode_vertex_order(*self.arrays, visits, False, vertices)
         return bytes([Method.ALONG_FACES]) + stream
 
-    def decode_vertices_along(
-        self, data: Bytes, faces: Int32s, rotations: Rotations | None
-    ) -> Int32s:
+    def decode_vertices_along(self, data: Bytes, faces: Int32s, rotations: Int32s | None) -> Int32s:
         visits = self._first_uses(faces, rotations)
         return _kernels.decode_vertex_order(data, *self.arrays, visits, False)
 
     def encode_faces(self, faces: Int32s, vertices: Int32s) -> bytes:
         def code(uniform: bool) -> bytes:
-            return _kernels.encode_face_order(*self.arrays, vertices, uniform, faces)
+            return _kernels.encode_face_order(*self.face_arrays, vertices, uniform, faces)
 
         return _shortest(_is_counting(faces), code)
 
@@ -213,30 +240,29 @@ class Known:
         if method == Method.IDENTITY:
             return _counting(self.n_faces)
         uniform = method == Method.UNIFORM
-        return _kernels.decode_face_order(data, *self.arrays, vertices, uniform)
+        return _kernels.decode_face_order(data, *self.face_arrays, vertices, uniform)
 
-    def encode_rotations(self, rotations: Rotations, faces: Int32s, vertices: Int32s) -> bytes:
+    def encode_rotations(self, rotations: Int32s, faces: Int32s, vertices: Int32s) -> bytes:
         def code(uniform: bool) -> bytes:
-            return _kernels.encode_rotations(*self.arrays, faces, vertices, uniform, rotations)
+            return _kernels.encode_rotations(*self.face_arrays, faces, vertices, uniform, rotations)
 
         return _shortest(not rotations.any(), code)
 
-    def decode_rotations(self, stream: bytes, faces: Int32s, vertices: Int32s) -> Rotations:
+    def decode_rotations(self, stream: bytes, faces: Int32s, vertices: Int32s) -> Int32s:
         method, data = _split(stream)
         if method == Method.IDENTITY:
-            return np.zeros(self.n_faces, np.uint8)
+            return np.zeros(self.n_faces, np.int32)
         uniform = method == Method.UNIFORM
-        return _kernels.decode_rotations(data, *self.arrays, faces, vertices, uniform)
+        return _kernels.decode_rotations(data, *self.face_arrays, faces, vertices, uniform)
 
-    def _first_uses(self, faces: Int32s, rotations: Rotations | None) -> Int32s:
+    def _first_uses(self, faces: Int32s, rotations: Int32s | None) -> Int32s:
         """The vertices in the order in which the source's faces use them."""
-        by_faces = SourceOrder(None, faces, rotations)
-        corners = by_faces.place_corners(self.corners.reshape(-1, 3)).reshape(-1)
+        corners = SourceOrder(None, faces, rotations, self.offsets).place_values(self.corners)
         return _kernels.number_by_first_use(corners, self.n_vertices)[1]
 
 
-def _rotations_alone(known: Known, rotations: Rotations | None) -> bytes | None:
-    if rotations is None or not len(rotations):
+def _rotations_alone(known: Known, rotations: Int32s | None) -> bytes | None:
+    if rotations is None or not len(known.corners):
         return None
     numbers = _counting(known.n_faces), _counting(known.n_vertices)
     return known.encode_rotations(rotations, *numbers)

@@ -20,7 +20,7 @@ from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedMesh, Streams
-from ebz.codec.errors import CorruptError, MeshError, corrupt_at
+from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.fitting import LOSSLESS, Precision
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
@@ -77,8 +77,6 @@ def encode(
     """
     report = progress or _silent
     mesh = replace(mesh)  # its arrays may have been exchanged since they were checked
-    if not mesh.is_triangles:
-        raise MeshError("only triangles can be coded")
     fitting.check(mesh.vertices, precision)
     mesh = rounded(mesh, attribute_precision)
     report("lattice", 0, N_STAGES)
@@ -87,8 +85,8 @@ def encode(
     stored = lattice.restore(points, mesh.vertices.dtype, exact)
     report("connectivity", 1, N_STAGES)
     models = word_models(level) if model is None else [model]
-    welded = welding.weld(mesh.faces, stored)
-    word, surface, order = connectivity.encode(welded, len(stored), models)
+    welded = welding.weld(mesh.faces, stored, mesh.face_offsets)
+    word, surface, order = connectivity.encode(welded, len(stored), models, mesh.face_offsets)
     arrangement = welding.arrange(mesh.faces, welded, surface, order)
     report("positions", 2, N_STAGES)
     free = None
@@ -104,8 +102,12 @@ def encode(
     report("attributes", 3, N_STAGES)
     keep_rotation = keeps_rotation(mesh.face_attributes)
     split = welding.split(surface, arrangement.splits, len(stored))
-    kept = source_order.kept(order, keep_order=keep_order, keep_rotation=keep_rotation)
-    sites = Sites(surface.opposite, split.vertex, stored[order.vertices], split.site)
+    kept = source_order.kept(
+        order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
+    )
+    sites = Sites(
+        surface.opposite, split.vertex, stored[order.vertices], split.site, surface.polygons
+    )
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -175,7 +177,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         exact = _decode_values(streams.exception_values, encoded)
     vertices = split.at_sites(lattice.restore(points, encoded.dtype, exact))
     report("attributes", 3, N_STAGES)
-    sites = Sites(surface.opposite, split.vertex, vertices, split.site)
+    sites = Sites(surface.opposite, split.vertex, vertices, split.site, surface.polygons)
     carried = Carried(
         coding.decode(encoded.vertex_attributes, sites.by_vertex),
         coding.decode(encoded.face_attributes, sites.by_face),
@@ -197,7 +199,8 @@ def _encode_order(
 ) -> OrderStreams:
     if not kept.any:
         return OrderStreams()
-    known = source_order.Known(surface.opposite, split.vertex, split.at_sites(integers))
+    at = split.at_sites(integers)
+    known = source_order.Known(surface.opposite, split.vertex, at, surface.polygons)
     return source_order.encode(kept, known)
 
 
@@ -206,8 +209,10 @@ def _decode_order(
 ) -> SourceOrder:
     streams = encoded.streams.order
     if not streams.any:
-        return SourceOrder()
-    known = source_order.Known(surface.opposite, split.vertex, split.at_sites(integers))
+        offsets = None if surface.polygons is None else surface.polygons.offsets
+        return SourceOrder(offsets=offsets)
+    at = split.at_sites(integers)
+    known = source_order.Known(surface.opposite, split.vertex, at, surface.polygons)
     return source_order.decode(streams, known, place=encoded.place)
 
 
@@ -263,13 +268,17 @@ def _taken(attributes: Attributes, order: npt.NDArray[Any]) -> Attributes:
 
 def _arranged(sites: Sites, kept: SourceOrder, carried: Carried) -> Mesh:
     """The mesh from what is in output order."""
-    faces = kept.place_corners(sites.vertex.reshape(-1, 3))
+    corners = kept.source_vertices(kept.place_values(sites.of_faces(sites.vertex)))
+    corners = corners.astype(face_dtype(sites.n_vertices), copy=False)
     return Mesh(
         vertices=kept.place_vertices(sites.vertices),
-        faces=faces.astype(face_dtype(sites.n_vertices), copy=False),
+        faces=corners.reshape(-1, 3) if kept.offsets is None else corners,
+        face_offsets=kept.source_offsets,
         vertex_attributes={k: kept.place_vertices(v) for k, v in carried.vertices.items()},
         face_attributes={k: kept.place_faces(v) for k, v in carried.faces.items()},
-        corner_attributes={k: kept.place_values(v) for k, v in carried.corners.items()},
+        corner_attributes={
+            k: kept.place_values(sites.of_faces(v)) for k, v in carried.corners.items()
+        },
         elements=rows.renumbered(carried.elements, kept.source_vertices),
         metadata=carried.metadata,
     )

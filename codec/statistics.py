@@ -39,6 +39,7 @@ class Stats:
 
     vertices: int
     faces: int
+    faces_by_corners: dict[int, int]
     vertex_dtype: str
     isolated_vertices: int
     components: int
@@ -87,11 +88,11 @@ def describe(
     chunk_sizes: bytes of the file by kind of chunk, framing included.
     guarantee: worst case of the model, bits per vertex of a closed mesh of genus 0.
     """
-    n_vertices, n_faces = encoded.n_vertices, encoded.counts.n_faces
+    n_vertices, n_faces = encoded.n_vertices, mesh.n_faces
     n_used = len(np.unique(mesh.faces))
     components, loops, boundary_edges, n_edges = _kernels.describe(surface.opposite)
     n_piece_vertices = len(surface.vertex_of_piece)
-    euler = n_piece_vertices - n_edges + n_faces
+    euler = n_piece_vertices - n_edges + encoded.counts.n_triangles
     connectivity = _total(chunk_sizes, "word", "model", "special S", "gluing", "splits")
     geometry = _total(chunk_sizes, "positions", "points", "exceptions")
     order = _total(chunk_sizes, "vertex order", "face order", "rotations")
@@ -103,6 +104,7 @@ def describe(
     return Stats(
         vertices=n_vertices,
         faces=n_faces,
+        faces_by_corners=_faces_by_corners(mesh),
         vertex_dtype=encoded.dtype.name,
         isolated_vertices=n_vertices - n_used,
         components=components,
@@ -135,6 +137,11 @@ def describe(
         tutte_limit_bits_per_vertex=TUTTE_LIMIT,
         valence_entropy_bits_per_vertex=valence_entropy(surface),
     )
+
+
+def _faces_by_corners(mesh: Mesh) -> dict[int, int]:
+    counts = np.bincount(np.diff(mesh.offsets))
+    return {n: int(counts[n]) for n in np.flatnonzero(counts).tolist()}
 
 
 def valence_entropy(surface: Surface) -> float:
@@ -179,7 +186,7 @@ def _owners(encoded: EncodedMesh) -> Iterator[tuple[str, int, list[EncodedArray]
     n_faces = encoded.counts.n_faces
     yield "vertex", encoded.n_vertices, encoded.vertex_attributes
     yield "face", n_faces, encoded.face_attributes
-    yield "corner", 3 * n_faces, encoded.corner_attributes
+    yield "corner", encoded.counts.n_corners, encoded.corner_attributes
     for element in encoded.elements:
         yield element.name, element.n_rows, element.attributes
         yield f"{element.name} corner", element.n_corners, element.corner_attributes
@@ -187,7 +194,7 @@ def _owners(encoded: EncodedMesh) -> Iterator[tuple[str, int, list[EncodedArray]
 
 def _raw_size(encoded: EncodedMesh) -> int:
     """Bytes of the arrays: coordinates, face indices of 4 bytes, attributes."""
-    size = 3 * encoded.dtype.itemsize * encoded.n_vertices + 12 * encoded.counts.n_faces
+    size = 3 * encoded.dtype.itemsize * encoded.n_vertices + 4 * encoded.counts.n_corners
     size += sum(4 * element.n_corners for element in encoded.elements)
     for _, n, arrays in _owners(encoded):
         size += sum(n * array.entry_size for array in arrays)

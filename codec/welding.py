@@ -31,14 +31,17 @@ class Arrangement:
     splits: bytes | None
 
 
-def weld(faces: npt.NDArray[Any], stored: npt.NDArray[Any]) -> npt.NDArray[Any]:
+def weld(
+    faces: npt.NDArray[Any], stored: npt.NDArray[Any], offsets: Int64s | None = None
+) -> npt.NDArray[Any]:
     """The faces with one vertex for all at a seam's position; the same array if there are none.
 
-    stored: (n, 3) the coordinates as they will be decoded.
+    stored: (n, 3) the coordinates as they will be decoded.  offsets: of polygons.
     """
     bits = np.ascontiguousarray(stored).view(f"i{stored.dtype.itemsize}").reshape(-1)
     compact = np.ascontiguousarray(faces, np.int32).reshape(-1)
-    first = _kernels.weld(compact, bits)
+    small = np.zeros(0, np.int32) if offsets is None else offsets.astype(np.int32)
+    first = _kernels.weld(compact, small, bits)
     return faces if not len(first) else first[faces]
 
 

@@ -20,8 +20,10 @@ from ebz.codec.lattice import (
     StepLattice,
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
+from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
 from ebz.codec.order import OrderStreams
+from ebz.codec.polygons import PolygonCounts
 from ebz.codec.positions import FLOAT_METHODS, Method
 from ebz.formats import chunks, layout, records, tables
 from ebz.formats.chunks import Chunk
@@ -134,7 +136,12 @@ def _parse(
     return EncodedMesh(
         dtype=np.dtype(f"f{header.itemsize}"),
         counts=WordCounts(
-            header.n_symbols, header.n_closed, header.n_single, header.n_specials, header.n_copies
+            header.n_symbols,
+            header.n_closed,
+            header.n_single,
+            header.n_specials,
+            header.n_copies,
+            _parse_polygons(header),
         ),
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
@@ -192,6 +199,8 @@ def _header(encoded: EncodedMesh, model: int) -> bytes:
             "n_specials": counts.n_specials,
             "n_copies": counts.n_copies,
             "n_exceptions": encoded.n_exceptions,
+            "has_polygons": counts.polygons is not None,
+            "polygons": counts.polygons and vars(counts.polygons),
             "model": model,
             "method": encoded.method,
             "lattice": layout.LATTICE_KINDS.index(encoded.lattice.kind),
@@ -216,6 +225,23 @@ def _check_header(header: Any) -> None:
         raise CorruptError(f"more faces than the limit of {MAX_FACES}")
     if header.n_closed + header.n_single > header.n_symbols:
         raise CorruptError("more components than symbols")
+
+
+def _parse_polygons(header: Any) -> PolygonCounts | None:
+    if not header.has_polygons:
+        return None
+    if header.has_polygons > 1:
+        raise VersionError(f"header: faces of unknown kind {header.has_polygons}")
+    if layout.ADAPTIVE_MODELS.get(header.model, Effort.DIRECT) == Effort.DIRECT:
+        raise CorruptError(f"polygons under model {header.model}")
+    n_faces, n_empty, n_corners = (header.polygons[k] for k in ("n_faces", "n_empty", "n_corners"))
+    n_triangles = header.n_symbols + header.n_closed
+    n_runs = n_faces - n_empty
+    if n_faces > MAX_FACES or not 0 <= n_runs <= n_triangles:
+        raise CorruptError(f"{n_faces} polygons, {n_empty} of them empty")
+    if n_corners > n_triangles + 2 * n_runs:
+        raise CorruptError(f"{n_corners} corners of {n_runs} polygons")
+    return PolygonCounts(n_faces, n_empty, n_corners)
 
 
 def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:

@@ -127,6 +127,12 @@ Header = Struct(
     "n_specials" / VarInt,
     "n_copies" / VarInt,
     "n_exceptions" / VarInt,
+    "has_polygons" / Byte,
+    "polygons"
+    / If(
+        this.has_polygons == 1,
+        Struct("n_faces" / VarInt, "n_empty" / VarInt, "n_corners" / VarInt),
+    ),
     "model" / Byte,
     "method" / Byte,
     "lattice" / Byte,

@@ -64,14 +64,15 @@ def declared_size(encoded: EncodedMesh) -> int:
     with corrupt_at(encoded.place("header")):
         _check_symbols(encoded)
         _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
-        n_split = 3 * counts.n_faces if streams.splits is not None else 0
+        n_split = 3 * counts.n_triangles if streams.splits is not None else 0
         n_coded = max(0, encoded.n_vertices - n_split)
         _check(
             "vertices", n_coded, 3 * CHEAPEST_DECISION, streams.positions + (streams.points or b"")
         )
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
-    _check_order("face order", counts.n_faces - 1, streams.order.faces, encoded)
-    _check_order("rotations", counts.n_faces, streams.order.rotations, encoded)
+    n_coded = counts.n_faces - (counts.polygons.n_empty if counts.polygons else 0)
+    _check_order("face order", n_coded - 1, streams.order.faces, encoded)
+    _check_order("rotations", n_coded, streams.order.rotations, encoded)
     with corrupt_at(encoded.place("metadata")):
         text_size = check_text(encoded.metadata)
     n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
@@ -80,13 +81,14 @@ def declared_size(encoded: EncodedMesh) -> int:
     size += _arrays_size(encoded.face_attributes, counts.n_faces)
     size += sum(_elements_size(element) for element in encoded.elements)
     # What is at a vertex may be one value: only decoding tells.
-    n_corners = 3 * counts.n_faces
+    n_corners = 3 * counts.n_triangles
     size += sum(
         n_corners
         * (3 * array.entry_size + BYTES_PER_COMPONENT * array.n_components + BYTES_PER_CORNER)
         for array in encoded.corner_attributes
     )
-    size += BYTES_PER_FACE * counts.n_faces + BYTES_PER_VERTEX * encoded.n_vertices
+    n_faces = max(counts.n_faces, counts.n_triangles)
+    size += BYTES_PER_FACE * n_faces + BYTES_PER_VERTEX * encoded.n_vertices
     return size + text_size + BYTES_PER_INTEGER * n_integers
 
 
@@ -106,8 +108,9 @@ def _check_symbols(encoded: EncodedMesh) -> None:
         return
     if 3 * counts.n_single > encoded.n_vertices + counts.n_copies:
         raise CorruptError(f"header: {counts.n_single} single triangles have too few vertices")
-    # The symbols of single triangles and the first are determined.
-    n_coded = max(counts.n_symbols - counts.n_single - 1, counts.n_specials)
+    # The symbols of single triangles and the first are determined; marks of polygons are not.
+    n_determined = 1 if counts.polygons else counts.n_single + 1
+    n_coded = max(counts.n_symbols - n_determined, counts.n_specials)
     _check("symbols", n_coded, CHEAPEST_SYMBOL, streams.word)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.connectivity import Int32s
+from ebz.codec.polygons import PolygonCorners
 
 Floats = npt.NDArray[np.float64]
 NOTHING = np.zeros(0, np.int32)
@@ -18,15 +19,17 @@ NOWHERE = np.zeros((0, 3))
 class Sites:
     """The decoded surface that all attributes share, in output order.
 
-    opposite, vertex: (3m,) the half-edge across, and the vertex of each corner.
+    opposite, vertex: (3t,) the half-edge across, and the vertex of each corner of the triangles.
     vertices: (n, 3) float32 or float64, as decoded.  site: (n,) that of each vertex: those of one
     site have the same coordinates; None where each has its own.
+    polygons: None where triangles are the faces.
     """
 
     opposite: Int32s
     vertex: Int32s
     vertices: npt.NDArray[Any]
     site: npt.NDArray[Any] | None
+    polygons: PolygonCorners | None = None
 
     @property
     def n_vertices(self) -> int:
@@ -34,7 +37,11 @@ class Sites:
 
     @property
     def n_faces(self) -> int:
-        return len(self.vertex) // 3
+        return len(self.vertex) // 3 if self.polygons is None else self.polygons.n_faces
+
+    def of_faces(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Values of the triangles' corners as those of the corners of the faces."""
+        return values if self.polygons is None else values[self.polygons.corner]
 
     @cached_property
     def by_vertex(self) -> "Items":
@@ -44,6 +51,8 @@ class Sites:
     @cached_property
     def by_face(self) -> "Items":
         """A face each."""
+        if self.polygons is not None:
+            return Items(self.n_faces)
         return Items(self.n_faces, self.opposite, sites=self)
 
     def by_wedge(self, wedge: Int32s, n_wedges: int) -> "Items":

@@ -14,6 +14,7 @@
 #include "lattices.hpp"
 #include "order/permutations.hpp"
 #include "points/octree.hpp"
+#include "polygons/polygons.hpp"
 #include "positions/positions.hpp"
 #include "splits.hpp"
 #include "text.hpp"
@@ -149,6 +150,60 @@ void bind_word_coder(nb::module_& m) {
           "symbols, opposite, piece_vertex, n_piece_vertices of an encoded word.");
 }
 
+std::tuple<Array<uint8_t>, Array<int64_t>, int32_t, int32_t, Array<uint8_t>, Array<int32_t>, Array<int32_t>,
+           int32_t, Array<int32_t>>
+encode_polygons(const Input<int32_t>& corners, const Input<int32_t>& offsets, int32_t n_vertices) {
+    require_addressable(3 * (corners.size() - 2 * (offsets.size() - 1)));
+    ebz::polygons::EncodedPolygons encoded =
+        without_gil([&] { return ebz::polygons::encode_polygons(view(corners), view(offsets), n_vertices); });
+    return std::make_tuple(to_numpy(std::move(encoded.word.symbols)), to_numpy(to_pairs(encoded.word.specials)),
+                           encoded.word.n_closed, encoded.word.n_single, to_numpy(std::move(encoded.marks)),
+                           to_numpy(std::move(encoded.connectivity.opposite)),
+                           to_numpy(std::move(encoded.connectivity.fans.vertex)),
+                           encoded.connectivity.fans.n_vertices, to_numpy(std::move(encoded.source_corner)));
+}
+
+nb::bytes encode_polygon_word(const Input<uint8_t>& symbols, const Input<uint8_t>& marks, int64_t n_closed,
+                              int64_t n_single, const Input<int64_t>& specials, int effort) {
+    const ebz::WordHeader header = word_header(static_cast<int64_t>(symbols.size()), n_closed, n_single);
+    return to_bytes(without_gil([&] {
+        return ebz::polygons::encode_adaptive(view(symbols), view(marks), header, specials_from(specials),
+                                              static_cast<ebz::Effort>(effort));
+    }));
+}
+
+std::tuple<WordArrays, Array<int64_t>, Array<uint8_t>> decode_polygon_word(const Input<uint8_t>& bytes,
+                                                                           int64_t n_symbols, int64_t n_closed,
+                                                                           int64_t n_single, int64_t n_specials,
+                                                                           int effort) {
+    const ebz::WordHeader header = word_header(n_symbols, n_closed, n_single);
+    ebz::polygons::DecodedPolygons decoded = without_gil([&] {
+        return ebz::polygons::decode_adaptive(view(bytes), header, static_cast<ebz::Index>(n_specials),
+                                              static_cast<ebz::Effort>(effort));
+    });
+    return {word_arrays(std::move(decoded.triangles.word)), to_numpy(to_pairs(decoded.triangles.specials)),
+            to_numpy(std::move(decoded.marks))};
+}
+
+std::tuple<Array<int32_t>, Array<int32_t>> corners_of_polygons(const Input<int32_t>& opposite,
+                                                               const Input<uint8_t>& marks) {
+    ebz::polygons::Corners corners =
+        without_gil([&] { return ebz::polygons::corners_of_polygons(view(opposite), view(marks)); });
+    return {to_numpy(std::move(corners.offsets)), to_numpy(std::move(corners.corner))};
+}
+
+void bind_polygons(nb::module_& m) {
+    m.def("encode_polygons", &encode_polygons, "corners"_a, "offsets"_a, "n_vertices"_a,
+          "symbols, specials (position, meets), n_closed, n_single, marks, opposite, piece_vertex, "
+          "n_piece_vertices, source_corner of faces of three corners at least.");
+    m.def("encode_polygon_word", &encode_polygon_word, "symbols"_a, "marks"_a, "n_closed"_a, "n_single"_a,
+          "specials"_a, "effort"_a, "The word and its marks in reverse order under an adaptive model.");
+    m.def("decode_polygon_word", &decode_polygon_word, "data"_a, "n_symbols"_a, "n_closed"_a, "n_single"_a,
+          "n_specials"_a, "effort"_a, "What decode_adaptive gives, and the marks.");
+    m.def("corners_of_polygons", &corners_of_polygons, "opposite"_a, "marks"_a,
+          "offsets, and the corner of a triangle that each corner of the polygons is.");
+}
+
 nb::bytes encode_positions(const Input<int32_t>& opposite, const Input<int32_t>& vertex, int32_t n_vertices,
                            const Input<int64_t>& values, int method) {
     const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
@@ -190,9 +245,13 @@ std::tuple<Array<int32_t>, Array<int32_t>> decode_splits(const Input<uint8_t>& b
 }
 
 template <class Bits>
-Array<int32_t> weld(const Input<int32_t>& faces, const Input<Bits>& positions) {
+Array<int32_t> weld(const Input<int32_t>& faces, const Input<int32_t>& offsets, const Input<Bits>& positions) {
     require_addressable(positions.size());
-    return to_numpy(without_gil([&] { return ebz::weld(view(faces), view(positions)); }));
+    if (offsets.size() > 0) {
+        return to_numpy(without_gil(
+            [&] { return ebz::weld(ebz::PolygonFaces(view(faces), view(offsets)), view(positions)); }));
+    }
+    return to_numpy(without_gil([&] { return ebz::weld(ebz::TriangleFaces(view(faces)), view(positions)); }));
 }
 
 // What the order of the source is predicted from; the arrays must stay.
@@ -217,37 +276,50 @@ Array<int32_t> decode_vertex_order(const Input<uint8_t>& bytes, const Input<int3
         without_gil([&] { return ebz::order::decode_vertex_order(view(bytes), known, {view(visits)}, uniform); }));
 }
 
-nb::bytes encode_face_order(const Input<int32_t>& opposite, const Input<int32_t>& vertex,
-                            const Input<int64_t>& positions, const Input<int32_t>& vertex_source, bool uniform,
-                            const Input<int32_t>& source) {
-    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
-    return to_bytes(without_gil(
-        [&] { return ebz::order::encode_face_order(known, view(vertex_source), uniform, view(source)); }));
+// Runs `code` with the faces that the order of the source is about; no offsets: triangles.
+template <class Code>
+auto with_faces(const Input<int32_t>& offsets, const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                const Input<int64_t>& positions, Code code) {
+    return without_gil([&] {
+        const auto run = [&](const auto& faces) {
+            return code(ebz::order::FaceGeometry<std::decay_t<decltype(faces)>>{faces, view(opposite), view(positions)});
+        };
+        return offsets.size() == 0 ? run(ebz::TriangleFaces(view(vertex)))
+                                   : run(ebz::PolygonFaces(view(vertex), view(offsets)));
+    });
 }
 
-Array<int32_t> decode_face_order(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
-                                 const Input<int32_t>& vertex, const Input<int64_t>& positions,
-                                 const Input<int32_t>& vertex_source, bool uniform) {
-    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
-    return to_numpy(without_gil(
-        [&] { return ebz::order::decode_face_order(view(bytes), known, view(vertex_source), uniform); }));
+nb::bytes encode_face_order(const Input<int32_t>& offsets, const Input<int32_t>& opposite,
+                            const Input<int32_t>& vertex, const Input<int64_t>& positions,
+                            const Input<int32_t>& vertex_source, bool uniform, const Input<int32_t>& source) {
+    return to_bytes(with_faces(offsets, opposite, vertex, positions, [&](const auto& known) {
+        return ebz::order::encode_face_order(known, view(vertex_source), uniform, view(source));
+    }));
 }
 
-nb::bytes encode_rotations(const Input<int32_t>& opposite, const Input<int32_t>& vertex,
-                           const Input<int64_t>& positions, const Input<int32_t>& face_source,
-                           const Input<int32_t>& vertex_source, bool uniform, const Input<uint8_t>& rotations) {
-    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
-    return to_bytes(without_gil([&] {
+Array<int32_t> decode_face_order(const Input<uint8_t>& bytes, const Input<int32_t>& offsets,
+                                 const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                                 const Input<int64_t>& positions, const Input<int32_t>& vertex_source,
+                                 bool uniform) {
+    return to_numpy(with_faces(offsets, opposite, vertex, positions, [&](const auto& known) {
+        return ebz::order::decode_face_order(view(bytes), known, view(vertex_source), uniform);
+    }));
+}
+
+nb::bytes encode_rotations(const Input<int32_t>& offsets, const Input<int32_t>& opposite,
+                           const Input<int32_t>& vertex, const Input<int64_t>& positions,
+                           const Input<int32_t>& face_source, const Input<int32_t>& vertex_source, bool uniform,
+                           const Input<int32_t>& rotations) {
+    return to_bytes(with_faces(offsets, opposite, vertex, positions, [&](const auto& known) {
         return ebz::order::encode_rotations(known, view(face_source), view(vertex_source), uniform, view(rotations));
     }));
 }
 
-Array<uint8_t> decode_rotations(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
-                                const Input<int32_t>& vertex, const Input<int64_t>& positions,
-                                const Input<int32_t>& face_source, const Input<int32_t>& vertex_source,
-                                bool uniform) {
-    const ebz::order::Geometry known = geometry(opposite, vertex, positions);
-    return to_numpy(without_gil([&] {
+Array<int32_t> decode_rotations(const Input<uint8_t>& bytes, const Input<int32_t>& offsets,
+                                const Input<int32_t>& opposite, const Input<int32_t>& vertex,
+                                const Input<int64_t>& positions, const Input<int32_t>& face_source,
+                                const Input<int32_t>& vertex_source, bool uniform) {
+    return to_numpy(with_faces(offsets, opposite, vertex, positions, [&](const auto& known) {
         return ebz::order::decode_rotations(view(bytes), known, view(face_source), view(vertex_source), uniform);
     }));
 }
@@ -378,15 +450,15 @@ void bind_orders(nb::module_& m) {
           "uniform"_a, "source"_a, "The bytes of each vertex's index in the source.");
     m.def("decode_vertex_order", &decode_vertex_order, "data"_a, "opposite"_a, "vertex"_a, "positions"_a,
           "visits"_a, "uniform"_a, "The indices, a permutation.");
-    m.def("encode_face_order", &encode_face_order, "opposite"_a, "vertex"_a, "positions"_a,
+    m.def("encode_face_order", &encode_face_order, "offsets"_a, "opposite"_a, "vertex"_a, "positions"_a,
           "vertex_source"_a, "uniform"_a, "source"_a, "The bytes of each face's index in the source.");
-    m.def("decode_face_order", &decode_face_order, "data"_a, "opposite"_a, "vertex"_a, "positions"_a,
+    m.def("decode_face_order", &decode_face_order, "data"_a, "offsets"_a, "opposite"_a, "vertex"_a, "positions"_a,
           "vertex_source"_a, "uniform"_a, "The indices, a permutation.");
-    m.def("encode_rotations", &encode_rotations, "opposite"_a, "vertex"_a, "positions"_a, "face_source"_a,
+    m.def("encode_rotations", &encode_rotations, "offsets"_a, "opposite"_a, "vertex"_a, "positions"_a, "face_source"_a,
           "vertex_source"_a, "uniform"_a, "rotations"_a,
           "The bytes of which corner of each face is first in the source.");
-    m.def("decode_rotations", &decode_rotations, "data"_a, "opposite"_a, "vertex"_a, "positions"_a,
-          "face_source"_a, "vertex_source"_a, "uniform"_a, "The corners, 0 to 2.");
+    m.def("decode_rotations", &decode_rotations, "data"_a, "offsets"_a, "opposite"_a, "vertex"_a, "positions"_a,
+          "face_source"_a, "vertex_source"_a, "uniform"_a, "The corners, from 0 on.");
 }
 
 void translate_errors(const std::exception_ptr& error, void*) {
@@ -437,10 +509,11 @@ NB_MODULE(_kernels, m) {
           "Which corners at each point belong to which vertex.");
     m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,
           "The vertex of each corner, numbered by first use, and the point of each vertex.");
-    m.def("weld", &weld<int32_t>, "faces"_a, "positions"_a);
-    m.def("weld", &weld<int64_t>, "faces"_a, "positions"_a,
-          "For each vertex the first that stands for it, empty if nothing is welded.");
+    m.def("weld", &weld<int32_t>, "faces"_a, "offsets"_a, "positions"_a);
+    m.def("weld", &weld<int64_t>, "faces"_a, "offsets"_a, "positions"_a,
+          "For each vertex the first that stands for it, empty if nothing is welded; no offsets: triangles.");
     bind_attributes(m);
+    bind_polygons(m);
     bind_orders(m);
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,

@@ -26,7 +26,7 @@ std::vector<Index> reordered(std::span<const Index> opposite, std::span<const In
 EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_vertices) {
     EncodedConnectivity encoded;
     {
-        const Pieces pieces = cut_into_pieces(faces, n_vertices);
+        const Pieces pieces = cut_into_pieces(TriangleFaces(faces), n_vertices);
         encoded.word = encode_word(pieces.opposite, pieces.fans);
         encoded.connectivity.opposite = reordered(pieces.opposite, encoded.word.gates);
     }

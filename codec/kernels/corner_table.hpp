@@ -33,6 +33,10 @@ struct Connectivity {
 // opposite must be an involution without fixed points.
 Fans number_fans(std::span<const Index> opposite);
 
+// The same around faces of any kind (faces.hpp).
+template <class Faces>
+Fans number_fans(std::span<const Index> opposite, const Faces& faces);
+
 struct Numbered {
     std::vector<Index> number;  // of each entry's item
     std::vector<Index> items;   // by number

@@ -19,6 +19,9 @@ namespace ebz {
 enum Symbol : uint8_t { C, L, R, S, E };
 inline constexpr int n_symbols = 5;
 
+// Of polygons, a loop may have two edges and the same edge may come again: as a diagonal.
+enum class PieceKind : uint8_t { triangles, polygons };
+
 // Triangle i of the output order has its gate as half-edge 3i, the right edge as 3i + 1 and the left as
 // 3i + 2.
 struct SpecialS {

@@ -14,9 +14,10 @@ struct Entry {
     }
 };
 
+template <class Faces>
 class Matcher {
 public:
-    Matcher(std::span<const Index> faces, std::span<Index> opposite)
+    Matcher(const Faces& faces, std::span<Index> opposite)
         : faces_(faces), opposite_(opposite) {
         singular_.offsets.push_back(0);
     }
@@ -25,7 +26,7 @@ public:
     void bucket(std::span<const Index> half_edges) {
         entries_.clear();
         for (const Index h : half_edges) {
-            entries_.push_back({std::max(faces_[h], faces_[next(h)]), h});
+            entries_.push_back({std::max(faces_[h], faces_[faces_.next(h)]), h});
         }
         std::sort(entries_.begin(), entries_.end());
         for (size_t i = 0, j = 0; i < entries_.size(); i = j) {
@@ -49,7 +50,7 @@ private:
         singular_.offsets.push_back(static_cast<Index>(singular_.half_edges.size()));
     }
 
-    std::span<const Index> faces_;
+    const Faces& faces_;
     std::span<Index> opposite_;
     std::vector<Entry> entries_;
     SingularEdges singular_;
@@ -57,19 +58,20 @@ private:
 
 }  // namespace
 
-SingularEdges match_regular_edges(std::span<const Index> faces, Index n_vertices,
-                                  const std::vector<bool>& isolated, std::span<Index> opposite) {
-    const Index n = static_cast<Index>(faces.size());
-    const auto near = [&](Index h) { return std::min(faces[h], faces[next(h)]); };
+template <class Faces>
+SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, const std::vector<bool>& isolated,
+                                  std::span<Index> opposite) {
+    const Index n = faces.n_corners();
+    const auto near = [&](Index h) { return std::min(faces[h], faces[faces.next(h)]); };
     // A counting sort by the smaller vertex: afterwards bucket v is [start[v - 1], start[v]).
     std::vector<Index> start(static_cast<size_t>(n_vertices) + 1, 0);
     for (Index h = 0; h < n; ++h) {
-        if (!isolated[h / 3]) ++start[near(h) + 1];
+        if (!isolated[faces.face(h)]) ++start[near(h) + 1];
     }
     for (Index v = 0; v < n_vertices; ++v) start[v + 1] += start[v];
     std::vector<Index> sorted(start[n_vertices]);
     for (Index h = 0; h < n; ++h) {
-        if (!isolated[h / 3]) sorted[start[near(h)]++] = h;
+        if (!isolated[faces.face(h)]) sorted[start[near(h)]++] = h;
     }
     Matcher matcher(faces, opposite);
     for (Index v = 0, from = 0; v < n_vertices; from = start[v++]) {
@@ -77,5 +79,8 @@ SingularEdges match_regular_edges(std::span<const Index> faces, Index n_vertices
     }
     return matcher.finish();
 }
+
+template SingularEdges match_regular_edges(const TriangleFaces&, Index, const std::vector<bool>&, std::span<Index>);
+template SingularEdges match_regular_edges(const PolygonFaces&, Index, const std::vector<bool>&, std::span<Index>);
 
 }  // namespace ebz

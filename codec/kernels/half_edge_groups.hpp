@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "corner_table.hpp"
+#include "faces.hpp"
 
 namespace ebz {
 
@@ -21,7 +21,8 @@ struct SingularEdges {
 
 // Matches the half-edges of every edge that has exactly two, running opposite ways; the edges with
 // more, or with two that run the same way, are returned.  `isolated` faces take no part.
-SingularEdges match_regular_edges(std::span<const Index> faces, Index n_vertices,
-                                  const std::vector<bool>& isolated, std::span<Index> opposite);
+template <class Faces>
+SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, const std::vector<bool>& isolated,
+                                  std::span<Index> opposite);
 
 }  // namespace ebz

@@ -23,9 +23,13 @@ inline constexpr uint32_t unknown_length = 1u << 31;
 
 class LoopStack {
 public:
+    // Of polygons, only loops of two edges cannot be closed: diagonals may repeat edges.
+    explicit LoopStack(PieceKind kind = PieceKind::triangles)
+        : has_conflicts_(kind == PieceKind::triangles), least_(has_conflicts_ ? 3 : 2) {}
+
     size_t size() const { return loops_.size(); }
     const Loop& top(size_t below = 0) const { return loops_[loops_.size() - 1 - below]; }
-    bool allows_close() const { return loops_.back().length != 3 && loops_.back().conflict != 1; }
+    bool allows_close() const { return loops_.back().length != least_ && loops_.back().conflict != 1; }
 
     // One reverse operation; a special S joins no loop of the stack.  Throws Corrupt where the
     // operation is not possible.
@@ -39,7 +43,7 @@ public:
                 loop = {known(loop.length) ? loop.length - 1 : unknown_length,
                         loop.conflict ? loop.conflict - 1 : 0};
                 break;
-            case L: loop = {sum(loop.length, 1), 1}; break;
+            case L: loop = {sum(loop.length, 1), has_conflicts_}; break;
             case R: loop = {sum(loop.length, 1), 0}; break;
             default: special ? forget() : join();
         }
@@ -57,9 +61,11 @@ private:
         loops_.pop_back();
         const uint32_t left = loops_.back().length;
         const bool sized = known(left) && known(right);
-        loops_.back() = {sized ? sum(right, left - 1) : unknown_length, known(left) ? left - 1 : 0};
+        loops_.back() = {sized ? sum(right, left - 1) : unknown_length, has_conflicts_ && known(left) ? left - 1 : 0};
     }
 
+    bool has_conflicts_;
+    uint32_t least_;
     std::vector<Loop> loops_;
 };
 

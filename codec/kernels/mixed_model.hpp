@@ -33,8 +33,10 @@ public:
     template <class Coder>
     Symbol code(Coder& coder, Symbol symbol, const WordView& view) {
         Contexts::hash(view, history_, near_, far_, hashes_);
+        if (view.in_polygon) for (uint32_t& hash : hashes_) hash += 0x85EBCA6Bu;
         find(0, 0);
         if (view.can_close && decide(coder, 0, symbol == C, view)) return C;
+        if (view.in_polygon) return view.can_split && !decide(coder, 2, symbol == L, view) ? S : L;
         if (decide(coder, 1, symbol == R, view)) return R;
         if (decide(coder, 2, symbol == L, view)) return L;
         if (!view.can_split) return E;
@@ -42,8 +44,9 @@ public:
         return decide(coder, 3, symbol == S, view) ? S : E;
     }
 
-    void advance(std::span<const uint8_t> symbols, Index position, uint32_t left_degree) {
-        history_.advance(static_cast<Symbol>(symbols[position]), left_degree);
+    void advance(std::span<const uint8_t> symbols, Index position, uint32_t left_degree,
+                 bool in_polygon = false) {
+        history_.advance(static_cast<Symbol>(symbols[position]), left_degree, in_polygon);
         far_.advance(symbols, position, history_.recent());
         if constexpr (thorough) near_.advance(symbols, position, history_.recent());
     }

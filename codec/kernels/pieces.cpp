@@ -11,25 +11,39 @@ namespace ebz {
 namespace {
 
 using Triple = std::array<Index, 3>;
+using Polygon = std::vector<Index>;
 
-Triple rotated_to_smallest(std::span<const Index> faces, Index triangle) {
-    Triple t{faces[3 * triangle], faces[3 * triangle + 1], faces[3 * triangle + 2]};
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
+Triple corners_of(const TriangleFaces& faces, Index triangle) {
+    return {faces[3 * triangle], faces[3 * triangle + 1], faces[3 * triangle + 2]};
 }
 
-bool is_degenerate(std::span<const Index> faces, Index triangle) {
-    const Index a = faces[3 * triangle], b = faces[3 * triangle + 1], c = faces[3 * triangle + 2];
-    return a == b || b == c || c == a;
+Polygon corners_of(const PolygonFaces& faces, Index face) {
+    Polygon corners;
+    for (Index c = faces.first(face); c < faces.first(face + 1); ++c) corners.push_back(faces[c]);
+    return corners;
 }
 
+template <class Face>
+Face rotated_to_smallest(Face face) {
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    return face;
+}
+
+bool is_degenerate(const Triple& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+bool is_degenerate(Polygon polygon) {
+    std::sort(polygon.begin(), polygon.end());
+    return std::adjacent_find(polygon.begin(), polygon.end()) != polygon.end();
+}
+
+template <class Faces>
 class Cutter {
 public:
-    Cutter(std::span<const Index> faces, Index n_vertices)
-        : faces_(faces), n_vertices_(n_vertices), isolated_(faces.size() / 3) {}
+    Cutter(const Faces& faces, Index n_vertices)
+        : faces_(faces), n_vertices_(n_vertices), isolated_(faces.n_faces()) {}
 
     Pieces cut() {
-        for (Index t = 0; t < n_triangles(); ++t) isolated_[t] = is_degenerate(faces_, t);
+        for (Index f = 0; f < faces_.n_faces(); ++f) isolated_[f] = is_degenerate(corners_of(faces_, f));
         match();
         if (singular_.count() && isolate_repeats()) match();
         if (singular_.count()) {
@@ -38,18 +52,16 @@ public:
             zip();
         }
         Pieces pieces{std::move(opposite_), {}};
-        pieces.fans = number_fans(pieces.opposite);
-        if (singular_.count() && isolate_double_edges(pieces)) {
-            pieces.fans = number_fans(pieces.opposite);
+        pieces.fans = number_fans(pieces.opposite, faces_);
+        if (Faces::simple && singular_.count() && isolate_double_edges(pieces)) {
+            pieces.fans = number_fans(pieces.opposite, faces_);
         }
         return pieces;
     }
 
 private:
-    Index n_triangles() const { return static_cast<Index>(isolated_.size()); }
-
     void match() {
-        opposite_.assign(faces_.size(), none);
+        opposite_.assign(faces_.n_corners(), none);
         singular_ = match_regular_edges(faces_, n_vertices_, isolated_, opposite_);
     }
 
@@ -60,12 +72,13 @@ private:
 
     // A face that repeats an earlier one, corner for corner, becomes a piece of its own.
     bool isolate_repeats() {
-        std::vector<Index> triangles;
-        for (const Index h : singular_.half_edges) triangles.push_back(h / 3);
-        std::sort(triangles.begin(), triangles.end());
-        triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-        std::vector<std::pair<Triple, Index>> keyed;
-        for (const Index t : triangles) keyed.emplace_back(rotated_to_smallest(faces_, t), t);
+        std::vector<Index> faces;
+        for (const Index h : singular_.half_edges) faces.push_back(faces_.face(h));
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        using Key = decltype(corners_of(faces_, 0));
+        std::vector<std::pair<Key, Index>> keyed;
+        for (const Index f : faces) keyed.emplace_back(rotated_to_smallest(corners_of(faces_, f)), f);
         std::sort(keyed.begin(), keyed.end());
         bool found = false;
         for (size_t i = 1; i < keyed.size(); ++i) {
@@ -76,7 +89,7 @@ private:
     }
 
     bool same_edge_reversed(Index h, Index g) const {
-        return faces_[h] == faces_[next(g)] && faces_[next(h)] == faces_[g];
+        return faces_[h] == faces_[faces_.next(g)] && faces_[faces_.next(h)] == faces_[g];
     }
 
     // The half-edges that h would be joined with to close its fan at either end.
@@ -94,13 +107,13 @@ private:
 
     // h is on a boundary, so both walks are along a path and end.
     Index fan_end_at_start(Index h) {
-        while (++n_steps_, opposite_[previous(h)] != none) h = opposite_[previous(h)];
-        return previous(h);
+        while (++n_steps_, opposite_[faces_.previous(h)] != none) h = opposite_[faces_.previous(h)];
+        return faces_.previous(h);
     }
 
     Index fan_end_at_end(Index h) {
-        while (++n_steps_, opposite_[next(h)] != none) h = opposite_[next(h)];
-        return next(h);
+        while (++n_steps_, opposite_[faces_.next(h)] != none) h = opposite_[faces_.next(h)];
+        return faces_.next(h);
     }
 
     // Joins the two ends of a fan that lie on one edge, in rounds, so that a seam closes from its ends
@@ -112,7 +125,7 @@ private:
         }
         // A long seam takes many rounds; the budget keeps them linear, and being checked between rounds
         // it does not depend on the order of the faces.
-        const size_t budget = 64 * faces_.size();
+        const size_t budget = 64 * static_cast<size_t>(faces_.n_corners());
         n_steps_ = 0;
         for (std::vector<std::pair<Index, Index>> joins; n_steps_ < budget; joins.clear()) {
             for (const Index h : open) {
@@ -134,7 +147,7 @@ private:
         for (Index s = 0; s < singular_.count(); ++s) {
             members.clear();
             for (const Index h : singular_.group(s)) {
-                if (opposite_[h] == none) members.emplace_back(component[h / 3], h);
+                if (opposite_[h] == none) members.emplace_back(component[faces_.face(h)], h);
             }
             std::sort(members.begin(), members.end());
             for (size_t i = 0, j = 0; i < members.size(); i = j) {
@@ -151,19 +164,19 @@ private:
     std::vector<Index> components() const {
         std::vector<Index> parent(isolated_.size());
         std::iota(parent.begin(), parent.end(), 0);
-        const auto root = [&](Index t) {
-            while (parent[t] != t) t = parent[t] = parent[parent[t]];
-            return t;
+        const auto root = [&](Index f) {
+            while (parent[f] != f) f = parent[f] = parent[parent[f]];
+            return f;
         };
-        for (Index h = 0; h < static_cast<Index>(faces_.size()); ++h) {
-            if (opposite_[h] > h) parent[root(h / 3)] = root(opposite_[h] / 3);
+        for (Index h = 0; h < faces_.n_corners(); ++h) {
+            if (opposite_[h] > h) parent[root(faces_.face(h))] = root(faces_.face(opposite_[h]));
         }
-        for (Index t = 0; t < n_triangles(); ++t) parent[t] = root(t);
+        for (Index f = 0; f < faces_.n_faces(); ++f) parent[f] = root(f);
         return parent;
     }
 
-    // Frees every triangle at an edge whose two ends are also those of another edge of the pieces.
-    // Only half-edges of one singular edge can collide, and freeing triangles makes no new collision:
+    // Frees every face at an edge whose two ends are also those of another edge of the pieces.
+    // Only half-edges of one singular edge can collide, and freeing faces makes no new collision:
     // it splits vertices, and the edges that it opens had ends of their own.
     bool isolate_double_edges(Pieces& pieces) {
         std::vector<Index> doubled;
@@ -171,7 +184,7 @@ private:
         for (Index s = 0; s < singular_.count(); ++s) {
             ends.clear();
             for (const Index h : singular_.group(s)) {
-                const Index a = pieces.fans.vertex[h], b = pieces.fans.vertex[next(h)];
+                const Index a = pieces.fans.vertex[h], b = pieces.fans.vertex[faces_.next(h)];
                 ends.push_back({std::minmax(a, b), h});
             }
             std::sort(ends.begin(), ends.end());
@@ -179,22 +192,22 @@ private:
                 while (j < ends.size() && ends[j].first == ends[i].first) ++j;
                 const bool one_edge = j - i == 1 || (j - i == 2 && pieces.opposite[ends[i].second] ==
                                                                       ends[i + 1].second);
-                for (size_t k = i; !one_edge && k < j; ++k) doubled.push_back(ends[k].second / 3);
+                for (size_t k = i; !one_edge && k < j; ++k) doubled.push_back(faces_.face(ends[k].second));
             }
         }
-        for (const Index t : doubled) isolate(pieces.opposite, t);
+        for (const Index f : doubled) isolate(pieces.opposite, f);
         return !doubled.empty();
     }
 
-    static void isolate(std::vector<Index>& opposite, Index triangle) {
-        for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+    void isolate(std::vector<Index>& opposite, Index face) const {
+        for (Index h = faces_.first(face); h < faces_.first(face + 1); ++h) {
             if (opposite[h] == none) continue;
             opposite[opposite[h]] = none;
             opposite[h] = none;
         }
     }
 
-    std::span<const Index> faces_;
+    const Faces& faces_;
     Index n_vertices_;
     std::vector<bool> isolated_;
     std::vector<Index> opposite_;
@@ -204,8 +217,12 @@ private:
 
 }  // namespace
 
-Pieces cut_into_pieces(std::span<const Index> faces, Index n_vertices) {
-    return Cutter(faces, n_vertices).cut();
+template <class Faces>
+Pieces cut_into_pieces(const Faces& faces, Index n_vertices) {
+    return Cutter<Faces>(faces, n_vertices).cut();
 }
+
+template Pieces cut_into_pieces(const TriangleFaces&, Index);
+template Pieces cut_into_pieces(const PolygonFaces&, Index);
 
 }  // namespace ebz

@@ -1,7 +1,7 @@
-// Cuts any list of triangles into oriented manifold pieces that Edgebreaker can code.
+// Cuts any list of faces into oriented manifold pieces that Edgebreaker can code.
 //
-// Pieces are simple: three distinct vertices per triangle, no two edges with the same two ends, every
-// boundary of at least three edges (which follows: a boundary of two edges has equal ends).
+// The vertices of a face are distinct.  Pieces of triangles are simple: no two edges with the same two
+// ends, every boundary of at least three edges (which follows: a boundary of two edges has equal ends).
 //
 // Every decision depends on the mesh alone and not on the order of its faces or vertices, except that
 // among identical faces the first stands for all: so a decoded mesh is cut as its original was.
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "corner_table.hpp"
+#include "faces.hpp"
 
 namespace ebz {
 
@@ -19,7 +19,8 @@ struct Pieces {
     Fans fans;                    // the vertices of the pieces; several may stand for one mesh vertex
 };
 
-// faces: 3m vertex indices in [0, n_vertices).
-Pieces cut_into_pieces(std::span<const Index> faces, Index n_vertices);
+// The vertices of faces are in [0, n_vertices).
+template <class Faces>
+Pieces cut_into_pieces(const Faces& faces, Index n_vertices);
 
 }  // namespace ebz

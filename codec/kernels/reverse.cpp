@@ -2,8 +2,9 @@
 
 namespace ebz {
 
-Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single)
-    : n_closed_(n_closed),
+Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single, PieceKind kind)
+    : kind_(kind),
+      n_closed_(n_closed),
       n_single_(n_single),
       n_triangles_(n_symbols + n_closed),
       triangle_(n_triangles_),
@@ -15,6 +16,13 @@ Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single)
 Index Reverse::root(Index vertex) {
     while (same_as_[vertex] != vertex) vertex = same_as_[vertex] = same_as_[same_as_[vertex]];
     return vertex;
+}
+
+void Reverse::uncount_gate() {
+    LoopEdge& gate = edges_[top()];
+    // Not so where they were cut off at max_degree.
+    gate.degree -= gate.degree > 1;
+    edges_[gate.next].degree -= edges_[gate.next].degree > 1;
 }
 
 // Later ones refer to earlier ones.

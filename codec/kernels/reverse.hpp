@@ -18,8 +18,8 @@ struct LoopEdge {
     Index next, previous;  // edges of the loop
     Index half_edge;
     Index vertex;    // provisional number
-    uint8_t degree;  // edges at the vertex so far, at most max_degree
-    uint8_t excess;  // of the vertices closed next to it: 8 + sum of (degree - 6), within 0 to 15
+    uint8_t degree;  // edges at the vertex so far, 1 to max_degree
+    uint8_t excess;  // of the vertices closed next to it: 8 + sum of (degree - 6, of polygons 4), within 0 to 15
 };
 
 inline constexpr uint8_t max_degree = 15;
@@ -30,11 +30,14 @@ inline constexpr uint8_t max_degree = 15;
 // Edges are recycled, so that those in use lie close together.
 class Reverse {
 public:
-    Reverse(Index n_symbols, Index n_closed, Index n_single);
+    Reverse(Index n_symbols, Index n_closed, Index n_single, PieceKind kind = PieceKind::triangles);
 
     // One symbol, at a position that falls by one from call to call; meets is that of SpecialS, none
     // for all others.
     void apply(Symbol symbol, int64_t meets);
+
+    // The edge of the top loop's gate is a diagonal, which degrees do not count.
+    void uncount_gate();
 
     bool has_loop() const { return !stack_.empty(); }
     size_t n_loops() const { return stack_.size(); }
@@ -84,6 +87,7 @@ private:
     void add_first_triangle(Index at, const LoopEdge& a, Index by);
     Connectivity numbered();
 
+    PieceKind kind_;
     Index n_closed_, n_single_;
     Index n_triangles_;
     Index triangle_;  // the one being added; triangles are built n_closed_ places too far back or less
@@ -197,11 +201,12 @@ inline Index Reverse::close() {
     const Index m = gate.previous;
     LoopEdge& met = edges_[m];  // becomes the gate
     LoopEdge& after = edges_[gate.next];
-    if (met.previous == n || met.previous == gate.next) throw Corrupt("the word closes a loop of three edges");
+    const bool is_triangle = kind_ == PieceKind::triangles && met.previous == gate.next;
+    if (met.previous == n || is_triangle) throw Corrupt("the word closes a loop that is too short");
     set_corners(met.vertex, after.vertex, gate.vertex);
     match(h + 1, gate);
     match(h + 2, met);
-    const int excess = gate.degree - 6;
+    const int excess = gate.degree - (kind_ == PieceKind::triangles ? 6 : 4);
     add_edge(met);
     add_edge(after);
     add_excess(met, excess);

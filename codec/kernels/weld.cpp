@@ -45,12 +45,13 @@ private:
 };
 
 // The vertices at an edge that is not shared by two faces of agreeing orientation.
-std::vector<bool> on_seam(std::span<const Index> faces, Index n_vertices) {
-    std::vector<Index> opposite(faces.size(), none);
-    match_regular_edges(faces, n_vertices, std::vector<bool>(faces.size() / 3), opposite);
+template <class Faces>
+std::vector<bool> on_seam(const Faces& faces, Index n_vertices) {
+    std::vector<Index> opposite(faces.n_corners(), none);
+    match_regular_edges(faces, n_vertices, std::vector<bool>(faces.n_faces()), opposite);
     std::vector<bool> seam(n_vertices);
-    for (Index h = 0; h < static_cast<Index>(faces.size()); ++h) {
-        if (opposite[h] == none) seam[faces[h]] = seam[faces[next(h)]] = true;
+    for (Index h = 0; h < faces.n_corners(); ++h) {
+        if (opposite[h] == none) seam[faces[h]] = seam[faces[faces.next(h)]] = true;
     }
     return seam;
 }
@@ -65,19 +66,25 @@ bool any_equal(std::span<const Bits> positions) {
 }
 
 // The vertices of faces that would lose a corner.
-std::vector<bool> folding(std::span<const Index> faces, std::span<const Index> point) {
+template <class Faces>
+std::vector<bool> folding(const Faces& faces, std::span<const Index> point) {
     std::vector<bool> folds(point.size());
-    for (Index h = 0; h < static_cast<Index>(faces.size()); ++h) {
-        const Index a = faces[h], b = faces[next(h)];
-        if (a != b && point[a] == point[b]) folds[a] = folds[b] = true;
+    std::vector<Index> latest(point.size(), none);  // the first corner at a point, of the latest face there
+    for (Index c = 0; c < faces.n_corners(); ++c) {
+        const Index a = faces[c], at = latest[point[a]];
+        if (at == none || faces.face(at) != faces.face(c)) {
+            latest[point[a]] = c;
+        } else if (faces[at] != a) {
+            folds[a] = folds[faces[at]] = true;
+        }
     }
     return folds;
 }
 
 }  // namespace
 
-template <class Bits>
-std::vector<Index> weld(std::span<const Index> faces, std::span<const Bits> positions) {
+template <class Faces, class Bits>
+std::vector<Index> weld(const Faces& faces, std::span<const Bits> positions) {
     if (!any_equal(positions)) return {};
     const Index n_vertices = static_cast<Index>(positions.size() / 3);
     const std::vector<bool> seam = on_seam(faces, n_vertices);
@@ -98,7 +105,9 @@ std::vector<Index> weld(std::span<const Index> faces, std::span<const Bits> posi
     return weld_others() ? point : std::vector<Index>{};
 }
 
-template std::vector<Index> weld(std::span<const Index>, std::span<const int32_t>);
-template std::vector<Index> weld(std::span<const Index>, std::span<const int64_t>);
+template std::vector<Index> weld(const TriangleFaces&, std::span<const int32_t>);
+template std::vector<Index> weld(const TriangleFaces&, std::span<const int64_t>);
+template std::vector<Index> weld(const PolygonFaces&, std::span<const int32_t>);
+template std::vector<Index> weld(const PolygonFaces&, std::span<const int64_t>);
 
 }  // namespace ebz

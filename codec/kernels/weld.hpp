@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "corner_table.hpp"
+#include "faces.hpp"
 
 namespace ebz {
 
@@ -14,7 +14,7 @@ namespace ebz {
 // positions: 3 per vertex, compared bit for bit.  Only vertices at an edge that does not pair up are
 // welded, so that positions which quantising makes equal inside a surface tear nothing, and none of a
 // face that would lose a corner by it.  The outcome does not depend on the order of vertices and faces.
-template <class Bits>
-std::vector<Index> weld(std::span<const Index> faces, std::span<const Bits> positions);
+template <class Faces, class Bits>
+std::vector<Index> weld(const Faces& faces, std::span<const Bits> positions);
 
 }  // namespace ebz

@@ -10,10 +10,15 @@
 
 namespace ebz {
 
+// In three bits: C 1 to E 5, and where the triangle adds to a polygon C 6, L 7, S 0.
+constexpr uint32_t history_code(Symbol symbol, bool in_polygon) {
+    return !in_polygon ? symbol + 1u : symbol == C ? 6 : symbol == L ? 7 : 0;
+}
+
 // The symbols so far and the degrees of the vertices closed by the latest.
 class WordHistory {
 public:
-    // Three bits per symbol, 1 to 5, the latest lowest; 0 before the first.
+    // The code of each symbol, the latest lowest; 0 before the first.
     uint64_t recent(int n = 21) const { return recent_ & ((uint64_t{1} << (3 * n)) - 1); }
     uint32_t latest(int n) const { return static_cast<uint32_t>(recent(n)); }  // n <= 10
 
@@ -23,8 +28,8 @@ public:
     // Symbols since the latest C, at most 15.
     uint32_t since_close() const { return since_close_; }
 
-    void advance(Symbol symbol, uint32_t left_degree) {
-        recent_ = recent_ << 3 | (symbol + 1u);
+    void advance(Symbol symbol, uint32_t left_degree, bool in_polygon = false) {
+        recent_ = recent_ << 3 | history_code(symbol, in_polygon);
         since_close_ = symbol == C ? 0 : std::min(since_close_ + 1, 15u);
         if (symbol == C) closed_degrees_ = closed_degrees_ << 4 | left_degree;
     }
@@ -43,6 +48,7 @@ struct WordView {
     uint32_t length, conflict;
     uint32_t below_length, below_l0, below_r0;  // the loop under the top one, 0 if there is none
     bool can_close, can_split;
+    bool in_polygon = false;  // the triangle adds to the polygon of the latest, by C, L or S
 
     // There must be a loop.
     WordView(const Reverse& reverse, const LoopStack& loops) {

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import ebz
 from ebz.codec import matching
 from ebz.codec.matching import Labelled
+from ebz.codec.mesh import Mesh
 from ebz.codec.sample import glued_grid, random_triangulation
 from tests import surgery
 from tests.connectivity_check import same_mesh
@@ -214,7 +215,8 @@ def test_a_mesh_that_was_reordered_and_moved_within_the_error_is_no_difference()
 
 
 def labelled(faces: np.ndarray, data: np.ndarray) -> Labelled:
-    return Labelled(faces, data, np.zeros((len(faces), 0), np.uint8))
+    mesh = Mesh(np.zeros((len(data), 3)), faces)
+    return Labelled(mesh.corners, mesh.offsets, data, np.zeros((len(faces), 0), np.uint8))
 
 
 def test_matching_refines_by_the_faces_around():

@@ -2,6 +2,7 @@
 // time in the same situation, and by vertices and positions where faces are sorted by them.
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "index_coder.hpp"
 #include "local_rank.hpp"
@@ -27,19 +28,23 @@ private:
 
 // The faces across the edges of a face that come before it in the output.
 struct Earlier {
-    std::array<Index, 3> face;
-    std::array<uint8_t, 3> side;  // the edge of that face
+    static constexpr int max = 3;
+
+    std::array<Index, max> face;
+    std::array<uint8_t, max> side;  // the edge of that face
     int n = 0;
 };
 
 // One path for both sides: an encoder codes the indices that are there, a decoder fills them in.
-template <class Coder>
+template <class Faces, class Coder>
 class FaceOrderCoder {
 public:
-    FaceOrderCoder(const Geometry& known, std::span<const Index> vertex_source, std::span<Index> source,
+    FaceOrderCoder(const FaceGeometry<Faces>& known, std::span<const Index> vertex_source, std::span<Index> source,
                    Coder& coder)
-        : surface_(known.surface),
+        : faces_(known.faces),
+          opposite_(known.opposite),
           source_(source),
+          n_coded_(count_coded()),
           indices_(coder, static_cast<Index>(source.size())),
           step_(source.size()),
           side_(source.size()) {
@@ -48,16 +53,30 @@ public:
     }
 
     void run() {
-        for (Index f = 0; f < static_cast<Index>(source_.size()); ++f) code(f);
+        for (Index f = 0; f < n_coded_; ++f) code(f);
+        add_empty();
     }
 
     void run_uniform() {
-        for (Index& index : source_) index = indices_.code_uniform(index);
+        for (Index& index : source_.first(n_coded_)) index = indices_.code_uniform(index);
+        add_empty();
     }
 
 private:
     enum Kind { long_context, context, short_context, pair_context, beside, start = beside + 6, sorted };
     static constexpr int n_situations = 4;
+    static constexpr Index max_side = 255;
+
+    Index count_coded() const {
+        Index n = faces_.n_faces();
+        while (n > 0 && faces_.size(n - 1) == 0) --n;
+        return n;
+    }
+
+    void add_empty() {
+        Index latest = none;
+        for (Index& index : source_.subspan(n_coded_)) latest = index = indices_.unused().above(latest);
+    }
 
     void code(Index f) {
         const Earlier earlier = look_around(f);
@@ -73,11 +92,12 @@ private:
 
     Earlier look_around(Index f) const {
         Earlier earlier;
-        for (int side = 0; side < 3; ++side) {
-            const Index across = surface_.opposite[3 * f + side];
-            if (across == none || across / 3 >= f) continue;
-            earlier.face[earlier.n] = across / 3;
-            earlier.side[earlier.n++] = static_cast<uint8_t>(across % 3);
+        for (Index c = faces_.first(f); c < faces_.first(f + 1) && earlier.n < Earlier::max; ++c) {
+            const Index across = opposite_[c];
+            if (across == none || faces_.face(across) >= f) continue;
+            const Index side = across - faces_.first(faces_.face(across));
+            earlier.face[earlier.n] = faces_.face(across);
+            earlier.side[earlier.n++] = static_cast<uint8_t>(std::min(side, max_side));
         }
         return earlier;
     }
@@ -85,11 +105,11 @@ private:
     // Steps and turns that led here, from many to few.
     std::array<uint64_t, n_situations> situations_of(const Earlier& earlier) const {
         if (earlier.n == 0) return {};
-        const Index from = earlier.face[0], gate = surface_.opposite[3 * from];
+        const Index from = earlier.face[0], gate = opposite_[faces_.first(from)];
         const uint64_t turn = LastSteps::mix(earlier.side[0], 0);
         const uint64_t step = LastSteps::mix(static_cast<uint64_t>(step_[from]), turn);
-        const bool is_led = gate != none && gate / 3 < from;
-        const uint64_t before = is_led ? LastSteps::mix(static_cast<uint64_t>(step_[gate / 3]), side_[from]) : 0;
+        const bool is_led = gate != none && faces_.face(gate) < from;
+        const uint64_t before = is_led ? LastSteps::mix(static_cast<uint64_t>(step_[faces_.face(gate)]), side_[from]) : 0;
         uint64_t pair = 0;
         if (earlier.n > 1) {
             const int64_t apart = int64_t{source_[from]} - source_[earlier.face[1]];
@@ -125,33 +145,39 @@ private:
         return expected;
     }
 
-    // By the greatest vertex, by the least, by their sum.
+    // By the two greatest vertices, by the two least, by their sum.
     void rank_by_vertices(std::span<const Index> vertex_source) {
         by_vertices_ = true;
-        std::vector<int64_t> keys(source_.size());
-        for (int by = 0; by < 3; ++by) {
-            for (size_t f = 0; f < keys.size(); ++f) {
-                std::array<int64_t, 3> v;
-                for (int i = 0; i < 3; ++i) v[i] = vertex_source[surface_.vertex[3 * f + i]];
-                std::sort(v.begin(), v.end());
-                keys[f] = by == 0 ? v[2] << 31 | v[1] : by == 1 ? v[0] << 31 | v[1] : v[0] + v[1] + v[2];
-            }
-            ranks_.emplace_back(keys);
+        std::array<std::vector<int64_t>, 3> keys;
+        std::vector<int64_t> v;
+        for (Index f = 0; f < n_coded_; ++f) {
+            v.clear();
+            for (Index c = faces_.first(f); c < faces_.first(f + 1); ++c) v.push_back(vertex_source[faces_[c]]);
+            std::sort(v.begin(), v.end());
+            const size_t last = v.size() - 1, other = std::min<size_t>(last, 1);
+            keys[0].push_back(v[last] << 31 | v[last - other]);
+            keys[1].push_back(v[0] << 31 | v[other]);
+            keys[2].push_back(std::accumulate(v.begin(), v.end(), int64_t{0}));
         }
+        for (const std::vector<int64_t>& by : keys) ranks_.emplace_back(by);
     }
 
     void rank_by_position(std::span<const int64_t> positions, int axis) {
-        std::vector<int64_t> keys(source_.size());
-        for (size_t f = 0; f < source_.size(); ++f) {
+        std::vector<int64_t> keys(n_coded_);
+        for (Index f = 0; f < n_coded_; ++f) {
             uint64_t sum = 0;  // wraps
-            for (int i = 0; i < 3; ++i) sum += static_cast<uint64_t>(positions[3 * size_t(surface_.vertex[3 * f + i]) + axis]);
+            for (Index c = faces_.first(f); c < faces_.first(f + 1); ++c) {
+                sum += static_cast<uint64_t>(positions[3 * size_t(faces_[c]) + axis]);
+            }
             keys[f] = static_cast<int64_t>(sum);
         }
         ranks_.emplace_back(keys);
     }
 
-    const Surface& surface_;
+    const Faces& faces_;
+    std::span<const Index> opposite_;
     std::span<Index> source_;
+    Index n_coded_;
     IndexCoder<Coder> indices_;
     std::vector<LocalRank> ranks_;
     bool by_vertices_ = false;
@@ -160,16 +186,17 @@ private:
     std::array<LastSteps, n_situations> steps_;
 };
 
-template <class Coder>
-void run(const Geometry& known, std::span<const Index> vertex_source, bool uniform, std::span<Index> source,
-         Coder& coder) {
-    FaceOrderCoder<Coder> order(known, vertex_source, source, coder);
+template <class Faces, class Coder>
+void run(const FaceGeometry<Faces>& known, std::span<const Index> vertex_source, bool uniform,
+         std::span<Index> source, Coder& coder) {
+    FaceOrderCoder<Faces, Coder> order(known, vertex_source, source, coder);
     uniform ? order.run_uniform() : order.run();
 }
 
 }  // namespace
 
-Bytes encode_face_order(const Geometry& known, std::span<const Index> vertex_source, bool uniform,
+template <class Faces>
+Bytes encode_face_order(const FaceGeometry<Faces>& known, std::span<const Index> vertex_source, bool uniform,
                         std::span<const Index> source) {
     std::vector<Index> copy(source.begin(), source.end());
     RangeEncoder coder;
@@ -177,12 +204,22 @@ Bytes encode_face_order(const Geometry& known, std::span<const Index> vertex_sou
     return coder.finish();
 }
 
-std::vector<Index> decode_face_order(std::span<const uint8_t> bytes, const Geometry& known,
+template <class Faces>
+std::vector<Index> decode_face_order(std::span<const uint8_t> bytes, const FaceGeometry<Faces>& known,
                                      std::span<const Index> vertex_source, bool uniform) {
-    std::vector<Index> source(known.surface.vertex.size() / 3);
+    std::vector<Index> source(known.faces.n_faces());
     RangeDecoder coder(bytes);
     run(known, vertex_source, uniform, source, coder);
     return source;
 }
+
+template Bytes encode_face_order(const FaceGeometry<TriangleFaces>&, std::span<const Index>, bool,
+                                 std::span<const Index>);
+template Bytes encode_face_order(const FaceGeometry<PolygonFaces>&, std::span<const Index>, bool,
+                                 std::span<const Index>);
+template std::vector<Index> decode_face_order(std::span<const uint8_t>, const FaceGeometry<TriangleFaces>&,
+                                              std::span<const Index>, bool);
+template std::vector<Index> decode_face_order(std::span<const uint8_t>, const FaceGeometry<PolygonFaces>&,
+                                              std::span<const Index>, bool);
 
 }  // namespace ebz::order

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "../faces.hpp"
 #include "../positions/surface.hpp"
 
 namespace ebz::order {
@@ -31,17 +32,30 @@ Bytes encode_vertex_order(const Geometry& known, Visits visits, bool uniform, st
 std::vector<Index> decode_vertex_order(std::span<const uint8_t> bytes, const Geometry& known, Visits visits,
                                        bool uniform);
 
-// source: per face.  vertex_source: what is known of the vertices, empty for nothing.
-Bytes encode_face_order(const Geometry& known, std::span<const Index> vertex_source, bool uniform,
+// What faces are predicted from: as Geometry, but corners are those of the faces, triangles or polygons.
+template <class Faces>
+struct FaceGeometry {
+    const Faces& faces;
+    std::span<const Index> opposite;
+    std::span<const int64_t> positions;
+};
+
+// source: per face; those without corners, which come last, take what is left in ascending order.
+// vertex_source: what is known of the vertices, empty for nothing.
+template <class Faces>
+Bytes encode_face_order(const FaceGeometry<Faces>& known, std::span<const Index> vertex_source, bool uniform,
                         std::span<const Index> source);
-std::vector<Index> decode_face_order(std::span<const uint8_t> bytes, const Geometry& known,
+template <class Faces>
+std::vector<Index> decode_face_order(std::span<const uint8_t> bytes, const FaceGeometry<Faces>& known,
                                      std::span<const Index> vertex_source, bool uniform);
 
 // rotations: per face of the output, which of its corners is first in the source.
-Bytes encode_rotations(const Geometry& known, std::span<const Index> face_source,
-                       std::span<const Index> vertex_source, bool uniform, std::span<const uint8_t> rotations);
-std::vector<uint8_t> decode_rotations(std::span<const uint8_t> bytes, const Geometry& known,
-                                      std::span<const Index> face_source, std::span<const Index> vertex_source,
-                                      bool uniform);
+template <class Faces>
+Bytes encode_rotations(const FaceGeometry<Faces>& known, std::span<const Index> face_source,
+                       std::span<const Index> vertex_source, bool uniform, std::span<const Index> rotations);
+template <class Faces>
+std::vector<Index> decode_rotations(std::span<const uint8_t> bytes, const FaceGeometry<Faces>& known,
+                                    std::span<const Index> face_source, std::span<const Index> vertex_source,
+                                    bool uniform);
 
 }  // namespace ebz::order

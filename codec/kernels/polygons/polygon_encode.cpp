@@ -1,0 +1,205 @@
+#include <algorithm>
+
+#include "../pieces.hpp"
+#include "polygons.hpp"
+
+namespace ebz::polygons {
+
+namespace {
+
+// As the encoder of triangles (edgebreaker_encode.cpp), but that it cuts polygons into them.
+class PolygonEncoder {
+public:
+    PolygonEncoder(const PolygonFaces& faces, const Pieces& pieces)
+        : faces_(faces),
+          opposite_(pieces.opposite),
+          vertex_(pieces.fans.vertex),
+          removed_(faces.n_faces()),
+          output_of_(opposite_.size()),
+          marked_(pieces.fans.n_vertices),
+          leaving_(pieces.fans.n_vertices, none) {
+        for (Index h = 0; h < faces_.n_corners(); ++h) {
+            if (opposite_[h] == none) leaving_[vertex_[h]] = h;
+        }
+    }
+
+    EncodedPolygons encode() {
+        for (Index h = 0; h < faces_.n_corners(); ++h) {
+            if (opposite_[h] == none && is_new(h) && !is_single(faces_.face(h))) open_component(h);
+        }
+        for (Index f = 0; f < faces_.n_faces(); ++f) {
+            if (!removed_[f] && !is_single(f)) closed_component(f);
+        }
+        for (Index f = 0; f < faces_.n_faces(); ++f) {
+            if (removed_[f]) continue;
+            ++word().n_single;
+            open_component(faces_.first(f));
+        }
+        const auto by_position = [](const SpecialS& a, const SpecialS& b) { return a.position < b.position; };
+        std::sort(word().specials.begin(), word().specials.end(), by_position);
+        glue();
+        word_marks().insert(word_marks().end(), first_marks_.begin(), first_marks_.end());
+        return std::move(encoded_);
+    }
+
+private:
+    struct Gate {
+        Index half_edge;
+        Index position;  // of the S that left it, none for a component's first gate
+    };
+    enum Side : Index { gate_side, right_side, left_side };
+
+    Word& word() { return encoded_.word; }
+    std::vector<uint8_t>& word_marks() { return encoded_.marks; }
+    std::vector<Index>& output() { return encoded_.connectivity.opposite; }
+    bool is_new(Index h) const { return !removed_[faces_.face(h)]; }
+    bool is_done(Index h) const { return opposite_[h] == none || !is_new(opposite_[h]); }
+    Index position() const { return static_cast<Index>(encoded_.word.symbols.size()); }
+
+    bool is_single(Index f) const {
+        const auto own = opposite_.subspan(faces_.first(f), faces_.size(f));
+        return std::all_of(own.begin(), own.end(), [](Index h) { return h == none; });
+    }
+
+    void open_component(Index boundary) {
+        mark_boundary(vertex_[boundary]);
+        gates_.assign(1, {boundary, none});
+        run();
+    }
+
+    // What is left of the first polygon lies across the gate of its first triangle.
+    void closed_component(Index face) {
+        const Index gate = faces_.first(face), left = faces_.previous(gate), right = faces_.previous(left);
+        const Index size = faces_.size(face);
+        removed_[face] = true;
+        ++word().n_closed;
+        for (const Index c : {gate, right, left}) marked_[vertex_[c]] = true;
+        add_triangle(gate, right, left, size > 3 ? gate_side : none);
+        first_marks_.push_back(size > 3 ? goes_on : last);
+        put(right, right_side);
+        put(left, left_side);
+        gates_.clear();
+        if (size > 3) {
+            region(rest_of_polygon(right, gate, size - 1));
+        } else {
+            put(gate, gate_side);
+            region(opposite_[gate]);
+        }
+        run();
+    }
+
+    // Everything on the boundary loop through v counts as part of the active loop.
+    void mark_boundary(Index v) {
+        while (!marked_[v]) {
+            marked_[v] = true;
+            v = vertex_[faces_.next(leaving_[v])];
+        }
+    }
+
+    void run() {
+        while (!gates_.empty()) {
+            const Gate gate = gates_.back();
+            gates_.pop_back();
+            if (is_new(gate.half_edge)) {
+                region(gate.half_edge);
+            } else {
+                special(gate);
+            }
+        }
+    }
+
+    void special(const Gate& gate) {
+        const Index met = output_of_[gate.half_edge];
+        const int64_t triangle = met / 3 - word().n_closed;
+        word().specials.push_back({gate.position, 2 * triangle + (met % 3 == left_side)});
+    }
+
+    // Removes polygons until an E.
+    void region(Index gate) {
+        while (gate != none) {
+            const Index face = faces_.face(gate);
+            removed_[face] = true;
+            output_of_[gate] = static_cast<Index>(output().size());
+            gate = rest_of_polygon(gate, faces_.next(gate), faces_.size(face));
+        }
+    }
+
+    // Removes what is left of a polygon, `size` corners from `end` to `from`, and gives the next gate.
+    Index rest_of_polygon(Index from, Index end, Index size) {
+        for (;; --size) {
+            const Index tip = faces_.previous(from);
+            const bool is_last = size == 3;
+            const Symbol symbol = remove(tip, is_last && is_done(end));
+            emit(symbol, is_last ? last : goes_on);
+            add_triangle(from, end, tip, is_last ? none : right_side);
+            put(tip, left_side);
+            if (is_last) {
+                put(end, right_side);
+                return symbol == E ? none : opposite_[symbol == R ? tip : end];
+            }
+            from = tip;
+        }
+    }
+
+    // The symbol of a triangle with the left edge `left`; S leaves the gate across it on the stack.
+    Symbol remove(Index left, bool right_done) {
+        const Index tip = vertex_[left];
+        if (!marked_[tip] && leaving_[tip] == none) {
+            marked_[tip] = true;
+            return C;
+        }
+        if (marked_[tip] && is_done(left)) return right_done ? E : L;
+        if (marked_[tip] && right_done) return R;
+        mark_boundary(tip);
+        gates_.push_back({opposite_[left], position()});
+        return S;
+    }
+
+    void emit(Symbol symbol, Mark mark) {
+        word().symbols.push_back(symbol);
+        word_marks().push_back(mark);
+    }
+
+    // By its corners in the source; rest: the side across which its polygon goes on.
+    void add_triangle(Index gate, Index end, Index tip, Index rest) {
+        const Index first = static_cast<Index>(output().size());
+        encoded_.source_corner.insert(encoded_.source_corner.end(), {gate, end, tip});
+        output().insert(output().end(), 3, none);
+        if (rest_ != none) {
+            output()[rest_] = first;
+            output()[first] = rest_;
+        }
+        rest_ = rest == none ? none : first + rest;
+    }
+
+    // What a half-edge of the polygon is in the latest triangle.
+    void put(Index h, Side side) { output_of_[h] = static_cast<Index>(output().size()) - 3 + side; }
+
+    void glue() {
+        for (Index h = 0; h < faces_.n_corners(); ++h) {
+            if (opposite_[h] != none) output()[output_of_[h]] = output_of_[opposite_[h]];
+        }
+    }
+
+    const PolygonFaces& faces_;
+    std::span<const Index> opposite_, vertex_;
+    std::vector<bool> removed_;     // faces
+    std::vector<Index> output_of_;  // the half-edge of a triangle that each half-edge becomes
+    std::vector<bool> marked_;      // vertices on a loop or behind it
+    std::vector<Index> leaving_;    // the boundary half-edge that starts at a vertex
+    std::vector<Gate> gates_;
+    std::vector<uint8_t> first_marks_;
+    Index rest_ = none;  // the half-edge of the output across which a polygon goes on
+    EncodedPolygons encoded_;
+};
+
+}  // namespace
+
+EncodedPolygons encode_polygons(std::span<const Index> vertex, std::span<const Index> offsets, Index n_vertices) {
+    const PolygonFaces faces(vertex, offsets);
+    EncodedPolygons encoded = PolygonEncoder(faces, cut_into_pieces(faces, n_vertices)).encode();
+    encoded.connectivity.fans = number_fans(encoded.connectivity.opposite);
+    return encoded;
+}
+
+}  // namespace ebz::polygons
