@@ -9,7 +9,8 @@ from tests.cli.shell import Shell
 from tests.formats.carried import contents
 
 SAMPLES = Path(__file__).parents[2] / "samples"
-NAMES = ["texcoord.ply", "property_order.ply", "colours.ply", "corners.obj", "colours.off"]
+NAMES = ["texcoord.ply", "property_order.ply", "colours.ply", "colours.off"]
+NAMES += ["corners.obj", "materials.obj", "polygons.obj"]
 
 
 @pytest.mark.parametrize("name", NAMES)
