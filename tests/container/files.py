@@ -15,9 +15,9 @@ Chunks = list[tuple[bytes, bytes]]
 
 HEADER_FIELDS = [
     *("itemsize", "n_vertices", "n_symbols", "n_closed", "n_single", "n_specials"),
-    *("n_copies", "n_exceptions", "model", "method", "lattice"),
+    *("n_copies", "n_exceptions", "has_polygons", "model", "method", "lattice"),
 ]
-BYTES = {"itemsize", "model", "method", "lattice"}
+BYTES = {"itemsize", "has_polygons", "model", "method", "lattice"}
 
 
 def rich_mesh() -> ebz.Mesh:
