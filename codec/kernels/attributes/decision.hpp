@@ -39,7 +39,7 @@ public:
         : log2_lines_(std::clamp(static_cast<int>(std::bit_width(n_values)), 9, 14)),
           mixer_(n_nodes, n_nodes * n_levels * 3),
           curve_(n_nodes * 3) {
-        constexpr float counted = 0.3f, spread = 0.12f, exact = 0.25f;
+        constexpr float counted = 0.2f, spread = 0.16f, exact = 0.3f;
         std::array<float, 8 * n_lanes> start{};
         for (size_t i = 0; i < n_contexts; ++i) start[i] = counted;
         for (size_t i = 0; i < n_candidates; ++i) {
@@ -135,7 +135,7 @@ private:
     void learn(size_t node, size_t slot, unsigned upper, bool bit) {
         const float target = bit ? 1.0f : 0.0f;
         n_decisions_ += 1.0f;
-        const float rate = 0.0022f * (1.0f + 7.0f / (1.0f + n_decisions_ * (1.0f / 4000.0f)));
+        const float rate = 0.0007f * (1.0f + 5.0f / (1.0f + n_decisions_ * (1.0f / 4000.0f)));
         mixer_.update(inputs_, (target - p_) * rate);
         curve_.update(target, 0.02f);
         if (slot < n_slots) {
