@@ -104,31 +104,7 @@ public:
 #endif
     }
 
-    // The mean of four, as a distribution to code with: two by two, halves up.
-    static AdaptiveSymbol mean(const AdaptiveSymbol& a, const AdaptiveSymbol& b, const AdaptiveSymbol& c, const AdaptiveSymbol& d) {
-        AdaptiveSymbol m(no_starts{});
-#ifdef __SSE2__
-        const auto row = [](const AdaptiveSymbol& x, int i) {
-            return _mm_load_si128(reinterpret_cast<const __m128i*>(x.starts_.data()) + i);
-        };
-        for (int i = 0; i < n / 8; ++i) {
-            const __m128i ab = _mm_avg_epu16(row(a, i), row(b, i)), cd = _mm_avg_epu16(row(c, i), row(d, i));
-            _mm_store_si128(reinterpret_cast<__m128i*>(m.starts_.data()) + i, _mm_avg_epu16(ab, cd));
-        }
-#else
-        for (int i = 0; i < n; ++i) {
-            const int ab = (a.starts_[i] + b.starts_[i] + 1) >> 1, cd = (c.starts_[i] + d.starts_[i] + 1) >> 1;
-            m.starts_[i] = static_cast<uint16_t>((ab + cd + 1) >> 1);
-        }
-#endif
-        m.starts_[n] = total;
-        return m;
-    }
-
 private:
-    struct no_starts {};
-    explicit AdaptiveSymbol(no_starts) {}
-
     static constexpr int total = 1 << total_bits;
     static constexpr int max_seen = 63;
 

@@ -44,8 +44,8 @@ public:
     }
 
     // Of a model that is not to learn.
-    template <int n>
-    uint32_t fixed(size_t lane, const AdaptiveSymbol<n>& model, uint32_t symbol) {
+    template <class Model>
+    uint32_t fixed(size_t lane, const Model& model, uint32_t symbol) {
         const Share share = model.share(symbol);
         steps_.push_back({share.start, share.frequency, model.total_bits, static_cast<uint16_t>(lane)});
         return symbol;
@@ -144,8 +144,8 @@ public:
         for (size_t lane = 0; lane < n_lanes; ++lane) models[lane]->learn(symbols[lane]);
     }
 
-    template <int n>
-    uint32_t fixed(size_t lane, const AdaptiveSymbol<n>& model, uint32_t) {
+    template <class Model>
+    uint32_t fixed(size_t lane, const Model& model, uint32_t) {
         uint64_t& state = states_[lane];
         const auto slot = static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
         const uint32_t symbol = model.find(slot);

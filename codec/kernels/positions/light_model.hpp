@@ -1,115 +1,91 @@
-// One residual as binary decisions, each the mix of four counted contexts.
+// One residual as a symbol and raw digits.
 //
-// A residual that would repeat a neighbour's value has a decision of its own where such residuals are
-// frequent; otherwise side, class, leading digit and raw digits: the tree of residual_model.hpp.
+// Symbols stand for 0 and, on either side of it, the half-octaves of the magnitude under a shift.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
-#include "counter.hpp"
-#include "lanes.hpp"
-#include "light_context.hpp"
-#include "float_logistic.hpp"
+#include "../adaptive_symbol.hpp"
+#include "residual_digits.hpp"
+#include "symbol_mixer.hpp"
+#include "symbol_row.hpp"
+#include "wrapping.hpp"
 
 namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
 
+template <size_t n_contexts>
 class LightModel {
 public:
-    using Context = LightContext;
-    static constexpr size_t n_slots = 33;
-    using Slots = std::array<CounterState, n_slots>;
-
-    LightModel() {
-        for (auto& slots : slots_)
-            for (auto& s : slots) s.fill(counter::unseen);
-        weights_.fill(splat<Lanes>(0.35f));
-    }
+    static constexpr size_t n_values = 1024, n_sets = 15;
+    using Contexts = std::array<size_t, n_contexts>;  // < n_values
 
     template <class Coder>
-    int64_t code(Coder& coder, const Context& x, int64_t e) {
-        for (size_t i = 0; i < n_contexts; ++i) active_[i] = &slots_[i][x.context[i]];
-        Counter& hits = hits_[x.value_context];
-        const uint32_t p = hits.p16();
-        const bool hit = x.value != 0 && p >= min_hits ? coder.bit(e == x.value, std::min(p, 65000u)) : false;
-        if (hit) {
-            hits.update(true, 16384);
-            return x.value;
-        }
-        const int64_t residual = code_residual(coder, x, e);
-        if (x.value != 0) hits.update(residual == x.value, 16384);
-        return residual;
+    int64_t code(Coder& coder, size_t lane, const Contexts& contexts, size_t set, int shift, int64_t e) {
+        const uint64_t half = (uint64_t{1} << shift) >> 1, mask = (uint64_t{1} << shift) - 1;
+        const uint64_t shifted = static_cast<uint64_t>(e) + half;
+        const int64_t cell = static_cast<int64_t>(shifted) >> shift;  // the nearest multiple
+        const uint64_t a = magnitude(cell);
+        const uint32_t size = half_octave(a);
+        std::array<SymbolRow*, n_contexts> rows;
+        for (size_t i = 0; i < n_contexts; ++i) rows[i] = &rows_[i][contexts[i]];
+        const uint32_t token = size >= escape_size ? escape_token : cell < 0 ? zero_token - size : zero_token + size;
+        const uint32_t symbol = mixers_[set].code(coder, lane, rows, token);
+        if (symbol == escape_token) return code_far(coder, lane, shift, e, cell);
+        const bool negative = symbol < zero_token;
+        const uint32_t decoded_size = negative ? zero_token - symbol : symbol - zero_token;
+        const int n_digits = n_low_digits(decoded_size, 0);
+        const uint64_t digits = (a & ((uint64_t{1} << n_digits) - 1)) << shift | (shifted & mask);
+        const uint64_t low = code_digits(coder, lane, digits, n_digits + shift);
+        const uint64_t above = leading_digits(decoded_size) << n_digits | low >> shift;
+        return joined_up(above, negative, low & mask, shift);
     }
 
 private:
-    static constexpr size_t n_contexts = Context::n_contexts;
-    static constexpr uint32_t min_hits = 4096;  // of 65536
+    static constexpr uint32_t zero_token = 7, escape_size = 8;
+    static constexpr uint64_t escape_magnitude = 16;
 
-    template <class Coder>
-    int64_t code_residual(Coder& coder, const Context& x, int64_t e) {
-        const bool negative = decide(coder, 0, e < 0);
-        const int64_t a = negative ? -1 - e : e;
-        const int k = code_class(coder, x, a, negative);
-        const int64_t decoded = k < 2 ? k : code_digits(coder, x, k, a, negative);
-        return negative ? -1 - decoded : decoded;
+    // cell, of magnitude `above`, and the digits below it.
+    static int64_t joined_up(uint64_t above, bool negative, uint64_t low, int shift) {
+        const uint64_t cell = negative ? 0 - above : above, half = (uint64_t{1} << shift) >> 1;
+        return static_cast<int64_t>((cell << shift | low) - half);
     }
 
     template <class Coder>
-    bool decide(Coder& coder, size_t slot, bool bit) {
-        const auto at = [&](size_t i) { return static_cast<int32_t>((*active_[i])[slot]); };
-        const IntLanes states = {at(0), at(1), at(2), at(3)};
-        const Lanes opinions = counter::opinion<Lanes>(states);
-        Lanes& weights = weights_[slot];
-        const float probability = squash(clamp(sum(weights * opinions), -20.0f, 20.0f));
-        const auto p = static_cast<uint32_t>(std::clamp(static_cast<int32_t>(probability * 65536.0f), 1, 65535));
-        bit = coder.bit(bit, p);
-        weights += opinions * (((bit ? 1.0f : 0.0f) - probability) * learning_rate);
-        const Lanes target = splat<Lanes>(bit ? counter::certain : 0.0f);
-        const IntLanes next = counter::updated(states, target, splat<Lanes>(probability * counter::certain));
-        for (size_t i = 0; i < n_contexts; ++i) (*active_[i])[slot] = static_cast<CounterState>(next[i]);
-        return bit;
+    int64_t code_far(Coder& coder, size_t lane, int shift, int64_t e, int64_t cell) {
+        const uint64_t beyond = magnitude(cell) - escape_magnitude;
+        const uint32_t token = coder.symbol(lane, far_[static_cast<size_t>(shift)], residual_token(beyond, 0));
+        if (token == escape_token) return code_large(coder, lane, e);
+        const bool negative = coder.raw(lane, cell < 0 ? 1 : 0, 1) != 0;
+        const int n_digits = n_low_digits(token, 0);
+        const uint64_t half = (uint64_t{1} << shift) >> 1, mask = (uint64_t{1} << shift) - 1;
+        const uint64_t digits = (beyond & ((uint64_t{1} << n_digits) - 1)) << shift | ((static_cast<uint64_t>(e) + half) & mask);
+        const uint64_t low = code_digits(coder, lane, digits, n_digits + shift);
+        const uint64_t above = (leading_digits(token) << n_digits | low >> shift) + escape_magnitude;
+        return joined_up(above, negative, low & mask, shift);
     }
 
-    template <class Coder>
-    int code_class(Coder& coder, const Context& x, int64_t a, bool negative) {
-        const auto above = [&](int k) {
-            const auto j = static_cast<size_t>(std::clamp(k - x.shift, 0, 7));
-            return decide(coder, 1 + j + (negative ? 8 : 0), a >= int64_t{1} << k);
-        };
-        int k = x.expected_class;
-        if (above(k)) {
-            while (++k < Context::max_class && above(k)) {}
-            return k;
-        }
-        while (k > 0 && !above(k - 1)) --k;
-        return k;
-    }
-
-    template <class Coder>
-    int64_t code_digits(Coder& coder, const Context& x, int k, int64_t a, bool negative) {
-        auto value = uint64_t{1};
-        int left = k - 1;
-        const auto j = static_cast<size_t>(std::clamp(k - x.shift, 0, 7));
-        --left;
-        value = value * 2 + (decide(coder, 17 + j + (negative ? 8 : 0), (a >> left & 1) != 0) ? 1 : 0);
-        while (left > 0) {
-            const int n_raw = std::min(left, 16);
-            left -= n_raw;
-            const auto bits = static_cast<uint32_t>(static_cast<uint64_t>(a) >> left) & ((1u << n_raw) - 1);
-            value = value << n_raw | coder.raw(bits, n_raw);
-        }
-        return static_cast<int64_t>(value);
-    }
-
-    static constexpr float learning_rate = 0.01f;
-
-    std::array<std::array<Slots, Context::n_values>, n_contexts> slots_;
-    std::array<Lanes, n_slots> weights_;
-    std::array<Counter, Context::n_value_contexts> hits_{};
-    std::array<Slots*, n_contexts> active_{};
+    std::array<std::array<SymbolRow, n_values>, n_contexts> rows_;
+    std::array<SymbolMixer<n_contexts>, n_sets> mixers_;
+    std::array<AdaptiveSymbol<16>, 48> far_;
 };
 
+// Vertices without known neighbours: differences to the one before.
+class LightSeeds {
+public:
+    template <class Coder>
+    void code(Coder& coder, int64_t* position) {
+        for (size_t d = 0; d < 3; ++d) {
+            const int64_t change = code_large(coder, d, wrapping_difference(position[d], last_[d]));
+            last_[d] = position[d] = wrapping_sum(last_[d], change);
+        }
+    }
+
+private:
+    std::array<int64_t, 3> last_{};
+};
+
+}  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions

@@ -17,11 +17,11 @@ namespace ebz::positions {
 
 enum class Method : uint8_t {
     fast,    // one symbol per coordinate, three coders side by side; values of 32 bits
-    light,   // a few mixed decisions
+    light,   // as medium, from fits and with more exact values
     strong,  // every model there is
     float32_bits,  // values are floats by their order (spaces.hpp), predictions are made in floats
     float64_bits,
-    medium,  // as light, but one symbol per coordinate
+    medium,  // one symbol per coordinate under a mix of contexts
 };
 
 // values: 3 per vertex; magnitudes up to 2^40 but for the float methods.  Method fast gives nothing where a

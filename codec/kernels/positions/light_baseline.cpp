@@ -1,0 +1,2 @@
+// The light and medium methods for the baseline.
+#include "light_coder.hpp"

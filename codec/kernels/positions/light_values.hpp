@@ -1,0 +1,66 @@
+// Values that a coordinate may have exactly, each with a decision of its own where that pays.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "../instruction_set.hpp"
+
+namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
+
+class LightValues {
+public:
+    enum Kind : size_t { plain_base, expected_base, neighbour, tip, recalled };
+
+    LightValues() { hits_.fill(first_hits); }
+
+    void clear() { n_ = 0; }
+
+    // agreement, exact: 0 to 3, of what stands for the value.  Values that are there already are left out.
+    void add(Kind kind, size_t turn, size_t agreement, size_t exact, int64_t residual) {
+        for (size_t i = 0; i < n_; ++i)
+            if (residuals_[i] == residual) return;
+        residuals_[n_] = residual;
+        contexts_[n_++] = &hits_[((kind * 3 + turn) * 4 + agreement) * 4 + exact];
+    }
+
+    // True if e, then one of the values, has been coded.  `near`: small ones are left to others.
+    template <class Coder>
+    bool code(Coder& coder, size_t lane, bool near, int64_t& e) {
+        for (size_t i = 0; i < n_; ++i) {
+            const uint16_t p = *contexts_[i];
+            if (p < least_hits || (near && residuals_[i] >= -3 && residuals_[i] <= 3)) continue;
+            if (!coder.bit(lane, e == residuals_[i], p)) continue;
+            e = residuals_[i];
+            return true;
+        }
+        return false;
+    }
+
+    // Whether any of the values was right.
+    bool learn(int64_t e) {
+        bool any = false;
+        for (size_t i = 0; i < n_; ++i) {
+            const bool hit = e == residuals_[i];
+            any |= hit;
+            uint16_t& p = *contexts_[i];
+            p = static_cast<uint16_t>(p + (((hit ? 32768 - 31 : 31) - p) >> 5));
+        }
+        return any;
+    }
+
+private:
+    static constexpr size_t n_kinds = 5, n_contexts = n_kinds * 3 * 4 * 4, max_values = 4;
+    static constexpr uint16_t first_hits = 8192, least_hits = 3000;  // of 2^15
+
+    std::array<uint16_t, n_contexts> hits_;
+    std::array<int64_t, max_values> residuals_{};
+    std::array<uint16_t*, max_values> contexts_{};
+    size_t n_ = 0;
+};
+
+}  // namespace EBZ_INSTRUCTIONS
+}  // namespace ebz::positions
