@@ -60,7 +60,7 @@ def test_the_wheel_of_the_sdist_is_complete_and_works(tmp_path):
     (sdist,) = (source / "dist").iterdir()
     with tarfile.open(sdist) as archive:
         packed = {name.partition("/")[2] for name in archive.getnames()}
-    needed = {"FORMAT.md", "tests/surgery.py", "tests/data/golden-v1/meshes.json"}
+    needed = {"FORMAT.md", "tests/surgery.py", "tests/data/golden-v2/meshes.json"}
     headers = {path.relative_to(ROOT).as_posix() for path in ROOT.glob("codec/kernels/**/*.hpp")}
     assert needed | headers <= packed
 
