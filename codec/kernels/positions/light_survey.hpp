@@ -39,7 +39,8 @@ struct LightTrace {
 
 // In arrays, so that they are aligned whatever the instruction set.
 struct alignas(32) LightPoint {
-    Axes4 at{};
+    LightPoint() : at{} {}  // GCC fails on an implicit one without optimisation
+    Axes4 at;
 };
 
 struct LightSurroundings {
