@@ -121,7 +121,7 @@ def _views(
 def ranks(rows: npt.NDArray[Any]) -> Colours:
     """Equal rows get equal numbers from 0 on."""
     if rows.ndim == 2:
-        rows = _rows(np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), -1))
+        rows = _rows(as_bytes(rows)) if len(rows) else np.zeros(0, np.int64)
     return np.unique(rows, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 

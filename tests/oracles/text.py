@@ -45,7 +45,7 @@ class Model:
         if coder:
             coder.bit(bool(bit), p)
         for feature, (value, count) in zip(features, known, strict=True):
-            moved = value + ((65536 * bit - p) * (80 + 19200 // (16 + count))) >> 12
+            moved = value + (((65536 * bit - p) * (80 + 19200 // (16 + count))) >> 12)
             self.weights[feature] = max(-(2**20), min(2**20, moved)), min(count + 1, 255)
 
     def learn(self, text: bytes) -> None:
