@@ -1,4 +1,4 @@
-// The light and medium methods, in the versions for several instruction sets that light_coder.hpp is compiled to.
+// The light method, in the versions for several instruction sets that light_coder.hpp is compiled to.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,26 @@
 namespace ebz::positions {
 
 inline namespace baseline {
-std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values, bool thorough);
-void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values, bool thorough);
+std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values);
+void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values);
 }
 inline namespace avx2 {
-std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values, bool thorough);
-void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values, bool thorough);
+std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values);
+void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values);
 }
 
-// thorough: light, else medium.
-inline std::vector<uint8_t> encode_positions_light(const Surface& mesh, std::span<const int64_t> values, bool thorough) {
+inline std::vector<uint8_t> encode_positions_light(const Surface& mesh, std::span<const int64_t> values) {
 #ifdef EBZ_HAS_AVX2
-    if (use_avx2()) return avx2::encode_light(mesh, values, thorough);
+    if (use_avx2()) return avx2::encode_light(mesh, values);
 #endif
-    return baseline::encode_light(mesh, values, thorough);
+    return baseline::encode_light(mesh, values);
 }
 
-inline void decode_positions_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values, bool thorough) {
+inline void decode_positions_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
 #ifdef EBZ_HAS_AVX2
-    if (use_avx2()) return avx2::decode_light(bytes, mesh, values, thorough);
+    if (use_avx2()) return avx2::decode_light(bytes, mesh, values);
 #endif
-    baseline::decode_light(bytes, mesh, values, thorough);
+    baseline::decode_light(bytes, mesh, values);
 }
 
 }  // namespace ebz::positions

@@ -1,4 +1,4 @@
-// The light and medium methods for AVX2; what comes before avx2.hpp stays within the baseline.
+// The light method for AVX2; what comes before avx2.hpp stays within the baseline.
 #include "../instructions.hpp"
 
 #ifdef EBZ_HAS_AVX2

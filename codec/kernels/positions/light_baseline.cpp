@@ -1,2 +1,2 @@
-// The light and medium methods for the baseline.
+// The light method for the baseline.
 #include "light_coder.hpp"

@@ -1,4 +1,4 @@
-// The light and medium methods: vertices in order of traversal, axis by axis, one symbol each.
+// The light method: vertices in order of traversal, axis by axis, one symbol each.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,7 @@
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-// thorough: the light method; else the medium one, which does without fits and most exact values.
-template <bool thorough, class Coder>
+template <class Coder>
 class LightCoder {
 public:
     LightCoder(Coder& coder, const Surface& mesh, std::span<int64_t> xyz)
@@ -50,7 +49,7 @@ public:
     }
 
 private:
-    static constexpr size_t n_contexts = thorough ? 4 : 3;
+    static constexpr size_t n_contexts = 4;
     using Model = LightModel<n_contexts>;
 
     void code_axis(size_t turn, int64_t* position) {
@@ -64,10 +63,8 @@ private:
             e = model_.code(coder_, d, contexts(turn, d, base, shift, nearest), predictor_.set(turn), shift, e);
         position[d] = wrapping_sum(base, e);
         const bool exact = values_.learn(e);
-        if constexpr (thorough) {
-            residual_recall_.learn(key_, e);
-            (turn == 0 ? first_residual_ : second_residual_) = e;
-        }
+        residual_recall_.learn(key_, e);
+        (turn == 0 ? first_residual_ : second_residual_) = e;
         predictor_.reveal(turn, position[d], e, exact);
         if (turn < 2) count_agreements(d);
     }
@@ -76,8 +73,7 @@ private:
     void count_agreements(size_t d) {
         const double value = predictor_.value(d);
         for (size_t i = 0; i < s_.n_kept(); ++i) neighbour_agrees_[i] += s_.neighbours[i][d] == value ? 1 : 0;
-        if constexpr (thorough)
-            for (size_t i = 0; i < s_.n_tips(); ++i) tip_agrees_[i] += s_.tips[i][d] == value ? 1 : 0;
+        for (size_t i = 0; i < s_.n_tips(); ++i) tip_agrees_[i] += s_.tips[i][d] == value ? 1 : 0;
     }
 
     // The least residual that would repeat a neighbour's value.
@@ -94,14 +90,12 @@ private:
                 best = off;
             }
         }
-        const size_t exact = thorough ? std::min<size_t>(s_.exact >> (8 * d) & 255, 3) : 0;
+        const size_t exact = std::min<size_t>(s_.exact >> (8 * d) & 255, 3);
         values_.clear();
         if (shift > 0) values_.add(predictor_.is_plain() ? LightValues::plain_base : LightValues::expected_base, turn, 0, exact, 0);
         values_.add(LightValues::neighbour, turn, agreement(turn, most), exact, static_cast<int64_t>(best));
-        if constexpr (thorough) {
-            add_tip(turn, d, from, exact);
-            add_recalled(turn, d, exact);
-        }
+        add_tip(turn, d, from, exact);
+        add_recalled(turn, d, exact);
         return static_cast<int64_t>(nearest);
     }
 
@@ -139,22 +133,20 @@ private:
         const auto wide = static_cast<size_t>(predictor_.wide(shift));
         const auto level = static_cast<size_t>(predictor_.level() - 2 * shift);  // <= 13
         const auto n = static_cast<size_t>(std::min(s_.n_parallelograms, 4));
-        typename Model::Contexts x{(d * 15 + near) * 15 + fraction, (turn * 18 + wide) * 5 + n, (d * 18 + level) * 18 + wide};
-        if constexpr (thorough)
-            x[3] = (turn * 18 + level) * 15 + (predictor_.is_plain() ? 7 : in_cells(predictor_.plain(), 2.0f));
-        return x;
+        return {(d * 15 + near) * 15 + fraction, (turn * 18 + wide) * 5 + n, (d * 18 + level) * 18 + wide,
+                (turn * 18 + level) * 15 + (predictor_.is_plain() ? 7 : in_cells(predictor_.plain(), 2.0f))};
     }
 
     Coder& coder_;
     const CornersOfVertices corners_;
     Traversal traversal_;
-    LightSurveyor<thorough> surveyor_;
+    LightSurveyor surveyor_;
     LightSurroundings s_;
-    LightPredictor<thorough> predictor_;
+    LightPredictor predictor_;
     LightValues values_;
     Model model_;
     LightSeeds seeds_;
-    Recall residual_recall_{thorough ? 12 : 0};
+    Recall residual_recall_{12};
     std::array<uint8_t, LightSurroundings::max_neighbours> neighbour_agrees_{};
     std::array<uint8_t, LightSurroundings::max_tips> tip_agrees_{};
     uint32_t key_ = 0;
@@ -163,22 +155,21 @@ private:
 };
 
 template <class Coder>
-void code_positions_light(Coder& coder, const Surface& mesh, std::span<int64_t> xyz, bool thorough) {
-    if (thorough) std::make_unique<LightCoder<true, Coder>>(coder, mesh, xyz)->run();
-    else std::make_unique<LightCoder<false, Coder>>(coder, mesh, xyz)->run();
+void code_positions_light(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+    std::make_unique<LightCoder<Coder>>(coder, mesh, xyz)->run();
 }
 
-std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values, bool thorough) {
+std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values) {
     // The shared path writes to each vertex what it read from it.
     std::vector<int64_t> copy(values.begin(), values.end());
     ans::Encoder<3> coder;
-    code_positions_light(coder, mesh, copy, thorough);
+    code_positions_light(coder, mesh, copy);
     return coder.finish();
 }
 
-void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values, bool thorough) {
+void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
     ans::Decoder<3> coder(bytes);
-    code_positions_light(coder, mesh, values, thorough);
+    code_positions_light(coder, mesh, values);
 }
 
 }  // namespace EBZ_INSTRUCTIONS

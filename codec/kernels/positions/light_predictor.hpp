@@ -22,7 +22,6 @@ inline int half_octaves(float x) {
     return static_cast<int>(clamp(log2_approx(x + 0.125f) * 2.0f + 6.0f, 0.0f, 90.0f));
 }
 
-template <bool thorough>
 class LightPredictor {
 public:
     static constexpr size_t n_sets = 15;
@@ -34,11 +33,7 @@ public:
         s_ = &s;
         const int n = s.n_parallelograms;
         plain_ = refined_ = n > 0 ? s.tips_sum * (1.0 / n) : s.neighbours[0];
-        if constexpr (thorough) {
-            if (n > 0) refine(s);
-        } else {
-            if (n > 0) refined_ += (s.neighbours_sum * (1.0 / s.n_neighbours) - plain_) * fixed_share;
-        }
+        if (n > 0) refine(s);
         order_axes(s.normal);
         square_ = dot(s.normal, s.normal);
         const Lanes size = s.size[3] > 0 ? s.size * (1.0f / s.size[3]) : splat<Lanes>(4.0f);
@@ -84,10 +79,8 @@ public:
         }
         if (slides_) judge_slide(value);
         trace_.size[axis_] = static_cast<float>(magnitude(e));
-        if constexpr (thorough) {
-            trace_.exact |= (exact || e == 0 ? 1u : 0u) << (8 * axis_);
-            trace_.residuals |= static_cast<uint32_t>(std::clamp<int64_t>(e, -100, 100) + 128) << (8 * axis_);
-        }
+        trace_.exact |= (exact || e == 0 ? 1u : 0u) << (8 * axis_);
+        trace_.residuals |= static_cast<uint32_t>(std::clamp<int64_t>(e, -100, 100) + 128) << (8 * axis_);
     }
 
     LightTrace learn() {
@@ -98,14 +91,12 @@ public:
             normal_energy_ += (share + 0.01f - normal_energy_) * 0.02f;
             tangent_energy_ += ((1.0f - share) * 0.5f + 0.01f - tangent_energy_) * 0.02f;
         }
-        if constexpr (thorough) {
-            const Axes4 off = value_ - plain_;
-            if (s_->n_parallelograms > 0) {
-                const double weight = 9.0 / (1.0 + dot(inputs_[0], inputs_[0]));
-                for (size_t d = 0; d < 3; ++d) fit_->add(inputs_of(d), off[d], weight);
-                fit_->tick();
-                trace_.residual = __builtin_convertvector(off, Lanes);
-            }
+        const Axes4 off = value_ - plain_;
+        if (s_->n_parallelograms > 0) {
+            const double weight = 9.0 / (1.0 + dot(inputs_[0], inputs_[0]));
+            for (size_t d = 0; d < 3; ++d) fit_->add(inputs_of(d), off[d], weight);
+            fit_->tick();
+            trace_.residual = __builtin_convertvector(off, Lanes);
         }
         return trace_;
     }

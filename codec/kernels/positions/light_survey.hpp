@@ -1,4 +1,4 @@
-// What is known around a vertex before its position is coded by the light and medium methods.
+// What is known around a vertex before its position is coded by the light method.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,6 @@ struct LightSurroundings {
     size_t n_tips() const { return std::min<size_t>(static_cast<size_t>(n_parallelograms), max_tips); }
 };
 
-template <bool thorough>
 class LightSurveyor {
 public:
     LightSurveyor(const Surface& mesh, const CornersOfVertices& corners, const Traversal& known)
@@ -98,13 +97,11 @@ private:
         const LightTrace& trace = traces_[static_cast<size_t>(u)];
         s.size += trace.size;
         s.neighbours_sum += point(u);
-        if constexpr (thorough) s.drift += trace.residual;
+        s.drift += trace.residual;
         if (i >= s.max_neighbours) return;
         s.neighbours[i] = point(u);
-        if constexpr (thorough) {
-            s.exact += trace.exact;
-            if (i < s.max_codes) s.codes[i] = trace.residuals;
-        }
+        s.exact += trace.exact;
+        if (i < s.max_codes) s.codes[i] = trace.residuals;
     }
 
     void add_parallelogram(LightSurroundings& s, int32_t c, int32_t a, int32_t b) const {
@@ -118,14 +115,12 @@ private:
         s.tips[i % s.max_tips] = tip;
         s.tips_sum += tip;
         s.normal += cross(pa - o, pb - o);
-        if constexpr (thorough) {
-            const Axes4 middle = (pa + pb) * 0.5;
-            s.ahead += middle - o;
-            add_wing(next(across), middle, s.behind, s.n_behind);
-            add_wing(previous(across), middle, s.behind, s.n_behind);
-            add_wing(c, middle, s.beside, s.n_beside);
-            add_wing(previous(c), middle, s.beside, s.n_beside);
-        }
+        const Axes4 middle = (pa + pb) * 0.5;
+        s.ahead += middle - o;
+        add_wing(next(across), middle, s.behind, s.n_behind);
+        add_wing(previous(across), middle, s.behind, s.n_behind);
+        add_wing(c, middle, s.beside, s.n_beside);
+        add_wing(previous(c), middle, s.beside, s.n_beside);
     }
 
     void add_wing(int32_t edge, Axes4 middle, Axes4& sum, int& n) const {

@@ -4,6 +4,7 @@
 #include "fast.hpp"
 #include "float_coder.hpp"
 #include "light.hpp"
+#include "medium.hpp"
 #include "strong.hpp"
 
 namespace ebz::positions {
@@ -25,8 +26,8 @@ void code(Coder& coder, const Surface& surface, Method method, std::span<int64_t
 std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> values, Method method) {
     switch (method) {
         case Method::fast: return encode_positions_fast(surface, values);
-        case Method::medium: return encode_positions_light(surface, values, false);
-        case Method::light: return encode_positions_light(surface, values, true);
+        case Method::medium: return encode_positions_medium(surface, values);
+        case Method::light: return encode_positions_light(surface, values);
         default: break;
     }
     // The shared path writes to each vertex what it read from it.
@@ -39,8 +40,8 @@ std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> val
 void decode(std::span<const uint8_t> bytes, const Surface& surface, Method method, std::span<int64_t> values) {
     switch (method) {
         case Method::fast: return decode_positions_fast(bytes, surface, values);
-        case Method::medium: return decode_positions_light(bytes, surface, values, false);
-        case Method::light: return decode_positions_light(bytes, surface, values, true);
+        case Method::medium: return decode_positions_medium(bytes, surface, values);
+        case Method::light: return decode_positions_light(bytes, surface, values);
         default: break;
     }
     RangeDecoder coder(bytes);

@@ -1,0 +1,28 @@
+// The medium method for AVX2; what comes before avx2.hpp stays within the baseline.
+#include "../instructions.hpp"
+
+#ifdef EBZ_HAS_AVX2
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cfloat>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "least_squares.hpp"
+#include "medium.hpp"
+#include "recall.hpp"
+#include "surface.hpp"
+#include "traversal.hpp"
+#include "wrapping.hpp"
+
+#include "../avx2.hpp"
+#include "medium_coder.hpp"
+
+#endif

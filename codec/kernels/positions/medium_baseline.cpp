@@ -1,0 +1,2 @@
+// The medium method for the baseline.
+#include "medium_coder.hpp"
