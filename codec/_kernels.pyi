@@ -66,6 +66,14 @@ def encode_points(values: Annotated[NDArray[numpy.int64], dict(shape=(None,), or
 def decode_points(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
     """The 3n lattice values."""
 
+def encode_gluing(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_copies: int, site: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
+    """
+    Which vertices of the pieces are one site; site: of each, numbered by first use.
+    """
+
+def decode_gluing(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int, n_copies: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """The site of each vertex of the pieces."""
+
 def encode_splits(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], point: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_points: int, vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
     """Which corners at each point belong to which vertex."""
 

@@ -14,7 +14,6 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels, polygons, threads
 from ebz.codec.errors import CorruptError, MeshError, OptionError, corrupt_at
-from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps, unzigzag, zigzag
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
@@ -152,9 +151,9 @@ def encode(
     there is no model for polygons.
     """
     traversal, surface, order = _traverse(faces, n_vertices, offsets)
-    copies = _copies(surface)
-    counts = replace(traversal.counts, n_copies=len(copies))
-    gluing = _encode_gluing(copies, surface.vertex_of_piece)
+    n_copies = len(surface.vertex_of_piece) - surface.n_vertices
+    counts = replace(traversal.counts, n_copies=n_copies)
+    gluing = _encode_gluing(surface, n_copies)
     if offsets is not None:
         models = _models_of_polygons(models)
 
@@ -184,7 +183,7 @@ def decode(
         word, special_integers, counts, model, place
     )
     with corrupt_at(place("gluing")):
-        vertex_of_piece = _decode_gluing(gluing, counts.n_copies, n_pieces)
+        vertex_of_piece = _decode_gluing(gluing, opposite, piece_vertex, n_pieces, counts.n_copies)
     encoded = EncodedWord(counts, model, symbols, specials, word, special_integers, gluing)
     n_used = n_pieces - counts.n_copies
     return encoded, Surface(opposite, piece_vertex, vertex_of_piece, n_used, corners)
@@ -359,14 +358,6 @@ def _traverse_polygons(
     )
 
 
-def _copies(surface: Surface) -> Int64s:
-    """The piece vertices that are glued to an earlier one; the others have ascending numbers."""
-    if not surface.has_copies:
-        return np.zeros(0, np.int64)
-    latest = np.maximum.accumulate(surface.vertex_of_piece)
-    return np.flatnonzero(np.diff(latest, prepend=-1) == 0)
-
-
 def _compact(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Int64s | None, Int32s]:
     """Indices of 32 bits; where many vertices are unused, only the used ones are numbered."""
     if n_vertices <= max(4 * faces.size, 1024):
@@ -387,23 +378,18 @@ def _with_isolated(order: Int64s, n_vertices: int) -> Int64s:
     return np.concatenate([order, np.flatnonzero(isolated)])
 
 
-def _encode_gluing(copies: Int64s, vertex_of_piece: Int32s) -> bytes:
-    """Gaps between the copies, and each copy's vertex as a step from the copy's before it."""
-    vertices = vertex_of_piece[copies].astype(np.int64)
-    return encode_columns(gaps(copies), zigzag(np.diff(vertices, prepend=0)))
-
-
-def _decode_gluing(data: bytes, n_copies: int, n_pieces: int) -> Int32s:
+def _encode_gluing(surface: Surface, n_copies: int) -> bytes:
     if not n_copies:
-        return np.arange(n_pieces, dtype=np.int32)
-    gap, steps = decode_columns(data, n_copies, 2)
-    copies, vertices = from_gaps(gap), np.cumsum(unzigzag(steps))
-    if (np.diff(copies, prepend=-1) <= 0).any() or (copies >= n_pieces).any():
-        raise CorruptError("copies do not ascend within the vertices of the pieces")
-    is_first = np.ones(n_pieces, bool)
-    is_first[copies] = False
-    number = np.cumsum(is_first, dtype=np.int32) - np.int32(1)
-    if ((vertices < 0) | (vertices > number[copies])).any():
-        raise CorruptError("a copy of a vertex that is not yet there")
-    number[copies] = vertices
-    return number
+        return b""
+    opposite, vertex = surface.opposite, surface.piece_vertex
+    return _kernels.encode_gluing(opposite, vertex, n_copies, surface.vertex_of_piece)
+
+
+def _decode_gluing(
+    data: bytes, opposite: Int32s, vertex: Int32s, n_vertices: int, n_copies: int
+) -> Int32s:
+    if not n_copies:
+        return np.arange(n_vertices, dtype=np.int32)
+    return _kernels.decode_gluing(
+        np.frombuffer(data, np.uint8), opposite, vertex, n_vertices, n_copies
+    )

@@ -10,6 +10,7 @@
 #include "connectivity.hpp"
 #include "errors.hpp"
 #include "instructions.hpp"
+#include "gluing.hpp"
 #include "integers.hpp"
 #include "lattices.hpp"
 #include "order/permutations.hpp"
@@ -229,6 +230,21 @@ std::tuple<nb::bytes, Array<int32_t>> encode_points(const Input<int64_t>& values
 
 Array<int64_t> decode_points(const Input<uint8_t>& bytes, int32_t n) {
     return to_numpy(without_gil([&] { return ebz::points::decode(view(bytes), static_cast<size_t>(n)); }));
+}
+
+nb::bytes encode_gluing(const Input<int32_t>& opposite, const Input<int32_t>& vertex, int32_t n_copies,
+                        const Input<int32_t>& site) {
+    return to_bytes(without_gil([&] {
+        const auto n_vertices = static_cast<int32_t>(site.size());
+        return ebz::encode_gluing({view(opposite), view(vertex), n_vertices, n_copies}, view(site));
+    }));
+}
+
+Array<int32_t> decode_gluing(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                             const Input<int32_t>& vertex, int32_t n_vertices, int32_t n_copies) {
+    return to_numpy(without_gil([&] {
+        return ebz::decode_gluing(view(bytes), {view(opposite), view(vertex), n_vertices, n_copies});
+    }));
 }
 
 nb::bytes encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& point, int32_t n_points,
@@ -505,6 +521,10 @@ NB_MODULE(_kernels, m) {
     m.def("encode_points", &encode_points, "values"_a,
           "The bytes of a set of points, 3n lattice values, and where those decoded come from.");
     m.def("decode_points", &decode_points, "data"_a, "n"_a, "The 3n lattice values.");
+    m.def("encode_gluing", &encode_gluing, "opposite"_a, "vertex"_a, "n_copies"_a, "site"_a,
+          "Which vertices of the pieces are one site; site: of each, numbered by first use.");
+    m.def("decode_gluing", &decode_gluing, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a, "n_copies"_a,
+          "The site of each vertex of the pieces.");
     m.def("encode_splits", &encode_splits, "opposite"_a, "point"_a, "n_points"_a, "vertex"_a,
           "Which corners at each point belong to which vertex.");
     m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,

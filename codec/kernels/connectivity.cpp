@@ -26,8 +26,9 @@ std::vector<Index> reordered(std::span<const Index> opposite, std::span<const In
 EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_vertices) {
     EncodedConnectivity encoded;
     {
-        const Pieces pieces = cut_into_pieces(TriangleFaces(faces), n_vertices);
-        encoded.word = encode_word(pieces.opposite, pieces.fans);
+        const TriangleFaces triangles(faces);
+        const Pieces pieces = cut_into_pieces(triangles, n_vertices);
+        encoded.word = encode_word(triangles, n_vertices, pieces.opposite, pieces.fans);
         encoded.connectivity.opposite = reordered(pieces.opposite, encoded.word.gates);
     }
     const std::vector<Index>& gates = encoded.word.gates;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "corner_table.hpp"
+#include "faces.hpp"
 
 namespace ebz {
 
@@ -38,7 +39,7 @@ struct Word {
     std::vector<Index> gates;  // per triangle in output order, the half-edge of the input at its gate
 };
 
-// pieces must be simple (pieces.hpp).  Linear time.
-Word encode_word(std::span<const Index> opposite, const Fans& fans);
+// opposite and fans: of pieces, which must be simple (pieces.hpp).  Linear time.
+Word encode_word(const TriangleFaces& faces, Index n_vertices, std::span<const Index> opposite, const Fans& fans);
 
 }  // namespace ebz

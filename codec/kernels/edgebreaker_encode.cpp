@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <functional>
 
 #include "edgebreaker.hpp"
+#include "faces.hpp"
+#include "touching_fans.hpp"
 
 namespace ebz {
 
@@ -8,9 +11,10 @@ namespace {
 
 class Encoder {
 public:
-    Encoder(std::span<const Index> opposite, const Fans& fans)
+    Encoder(const TriangleFaces& faces, Index n_vertices, std::span<const Index> opposite, const Fans& fans)
         : opposite_(opposite),
           vertex_(fans.vertex),
+          touching_(faces, fans, n_vertices),
           position_of_(opposite.size() / 3, unvisited),
           marked_(fans.n_vertices),
           leaving_(fans.n_vertices, none) {
@@ -22,15 +26,14 @@ public:
     }
 
     Word encode() {
-        for (Index h = 0; h < n_half_edges(); ++h) {
-            if (opposite_[h] == none && is_new(h) && !is_single(h / 3)) open_component(h);
-        }
-        for (Index t = 0; t < n_half_edges() / 3; ++t) {
-            if (is_new(3 * t) && !is_single(t)) closed_component(t);
-        }
-        for (Index t = 0; t < n_half_edges() / 3; ++t) {
-            if (is_new(3 * t)) single_triangle(t);
-        }
+        const auto on_boundary = [&](Index c) { return leaving_[vertex_[c]]; };
+        each_component(on_boundary, [&](Index h) {
+            if (opposite_[h] == none && !is_single(h / 3)) open_component(h);
+        });
+        each_component(std::identity(), [&](Index h) {
+            if (!is_single(h / 3)) closed_component(h);
+        });
+        each_component(std::identity(), [&](Index h) { single_triangle(h); });
         const auto by_position = [](const SpecialS& a, const SpecialS& b) { return a.position < b.position; };
         std::sort(word_.specials.begin(), word_.specials.end(), by_position);
         return std::move(word_);
@@ -50,22 +53,43 @@ private:
         return opposite_[3 * t] == none && opposite_[3 * t + 1] == none && opposite_[3 * t + 2] == none;
     }
 
+    // enter(h) codes the component of half-edge h if it is of the kind that is due; at(c) is where to enter
+    // one that touches what is coded at corner c.
+    template <class At, class Enter>
+    void each_component(At at, Enter enter) {
+        if (word_.gates.size() == position_of_.size()) return;
+        touching_.each_half_edge(at, [&](Index h) {
+            if (!is_new(h)) return;
+            const size_t n_before = word_.gates.size();
+            enter(h);
+            if (touching_.any()) reach(n_before);
+        });
+    }
+
+    void reach(size_t from) {
+        for (size_t t = from; t < word_.gates.size(); ++t) {
+            Index c = word_.gates[t];
+            for (int side = 0; side < 3; ++side, c = next(c)) touching_.reach(c);
+        }
+    }
+
     void open_component(Index boundary) {
         mark_boundary(vertex_[boundary]);
         run(boundary);
     }
 
-    void closed_component(Index triangle) {
+    void closed_component(Index corner) {
+        const Index triangle = corner / 3;
         position_of_[triangle] = first_triangle;
-        word_.gates.push_back(3 * triangle);
+        word_.gates.push_back(corner);
         ++word_.n_closed;
         for (Index c = 3 * triangle; c < 3 * triangle + 3; ++c) marked_[vertex_[c]] = true;
-        run(opposite_[3 * triangle]);
+        run(opposite_[corner]);
     }
 
-    void single_triangle(Index triangle) {
+    void single_triangle(Index corner) {
         ++word_.n_single;
-        emit(E, 3 * triangle);
+        emit(E, corner);
     }
 
     // Everything on the boundary loop through v counts as part of the active loop.
@@ -142,13 +166,14 @@ private:
     std::vector<bool> marked_;        // vertices on a loop or behind it
     std::vector<Index> leaving_;      // the boundary half-edge that starts at a vertex
     std::vector<Gate> gates_;
+    TouchingFans touching_;
     Word word_;
 };
 
 }  // namespace
 
-Word encode_word(std::span<const Index> opposite, const Fans& fans) {
-    return Encoder(opposite, fans).encode();
+Word encode_word(const TriangleFaces& faces, Index n_vertices, std::span<const Index> opposite, const Fans& fans) {
+    return Encoder(faces, n_vertices, opposite, fans).encode();
 }
 
 }  // namespace ebz

@@ -15,6 +15,7 @@ from ebz.formats import ebz_file
 from tests import surgery
 from tests.meshes import face_lists, meshes, surfaces
 from tests.oracles import integers, reverse, specials
+from tests.oracles.gluing import Gluing
 from tests.oracles.range_coder import Decoder, Encoder
 
 tables = st.sampled_from(table_names())
@@ -101,21 +102,10 @@ def check_file(mesh: ebz.Mesh, model: str | None) -> None:
     vertex = reverse.fans(opposite)
     assert opposite == decoded.surface.opposite.tolist()
     assert vertex == decoded.surface.piece_vertex.tolist()
-    glued = glue(streams.gluing, counts.n_copies, max(vertex, default=-1) + 1)
+    sites = Gluing(streams.gluing or b"", opposite, vertex)
+    glued = sites.decode(counts.n_copies, max(vertex, default=-1) + 1)
     faces = np.array([glued[v] for v in vertex], int).reshape(-1, 3)
     assert np.array_equal(faces, decoded.mesh.faces)
-
-
-def glue(data: bytes, n_copies: int, n_pieces: int) -> list[int]:
-    copies, at, vertex = {}, -1, 0
-    for gap, step in integers.decode(data, n_copies, 2):
-        at, vertex = at + gap + 1, vertex + (step >> 1 ^ -(step & 1))
-        copies[at] = vertex
-    numbers, fresh = [], 0
-    for piece in range(n_pieces):
-        numbers.append(copies.get(piece, fresh))
-        fresh += piece not in copies
-    return numbers
 
 
 @settings(max_examples=80, deadline=None)

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <functional>
 
 #include "../pieces.hpp"
+#include "../touching_fans.hpp"
 #include "polygons.hpp"
 
 namespace ebz::polygons {
@@ -10,31 +12,29 @@ namespace {
 // As the encoder of triangles (edgebreaker_encode.cpp), but that it cuts polygons into them.
 class PolygonEncoder {
 public:
-    PolygonEncoder(const PolygonFaces& faces, const Pieces& pieces)
+    PolygonEncoder(const PolygonFaces& faces, Index n_vertices, const Pieces& pieces)
         : faces_(faces),
           opposite_(pieces.opposite),
           vertex_(pieces.fans.vertex),
           removed_(faces.n_faces()),
           output_of_(opposite_.size()),
           marked_(pieces.fans.n_vertices),
-          leaving_(pieces.fans.n_vertices, none) {
+          leaving_(pieces.fans.n_vertices, none),
+          touching_(faces, pieces.fans, n_vertices) {
         for (Index h = 0; h < faces_.n_corners(); ++h) {
             if (opposite_[h] == none) leaving_[vertex_[h]] = h;
         }
     }
 
     EncodedPolygons encode() {
-        for (Index h = 0; h < faces_.n_corners(); ++h) {
-            if (opposite_[h] == none && is_new(h) && !is_single(faces_.face(h))) open_component(h);
-        }
-        for (Index f = 0; f < faces_.n_faces(); ++f) {
-            if (!removed_[f] && !is_single(f)) closed_component(f);
-        }
-        for (Index f = 0; f < faces_.n_faces(); ++f) {
-            if (removed_[f]) continue;
-            ++word().n_single;
-            open_component(faces_.first(f));
-        }
+        const auto on_boundary = [&](Index c) { return leaving_[vertex_[c]]; };
+        each_component(on_boundary, [&](Index h) {
+            if (opposite_[h] == none && !is_single(faces_.face(h))) open_component(h);
+        });
+        each_component(std::identity(), [&](Index h) {
+            if (!is_single(faces_.face(h))) closed_component(h);
+        });
+        each_component(std::identity(), [&](Index h) { single_polygon(faces_.face(h)); });
         const auto by_position = [](const SpecialS& a, const SpecialS& b) { return a.position < b.position; };
         std::sort(word().specials.begin(), word().specials.end(), by_position);
         glue();
@@ -61,6 +61,24 @@ private:
         return std::all_of(own.begin(), own.end(), [](Index h) { return h == none; });
     }
 
+    template <class At, class Enter>
+    void each_component(At at, Enter enter) {
+        const std::vector<Index>& coded = encoded_.source_corner;
+        touching_.each_half_edge(at, [&](Index h) {
+            if (!is_new(h)) return;
+            const size_t n_before = coded.size();
+            enter(h);
+            if (!touching_.any()) return;
+            for (size_t i = n_before; i < coded.size(); ++i) touching_.reach(coded[i]);
+        });
+    }
+
+    // From its first corner: it may have repeated the last.
+    void single_polygon(Index face) {
+        ++word().n_single;
+        open_component(faces_.first(face));
+    }
+
     void open_component(Index boundary) {
         mark_boundary(vertex_[boundary]);
         gates_.assign(1, {boundary, none});
@@ -68,8 +86,8 @@ private:
     }
 
     // What is left of the first polygon lies across the gate of its first triangle.
-    void closed_component(Index face) {
-        const Index gate = faces_.first(face), left = faces_.previous(gate), right = faces_.previous(left);
+    void closed_component(Index gate) {
+        const Index face = faces_.face(gate), left = faces_.previous(gate), right = faces_.previous(left);
         const Index size = faces_.size(face);
         removed_[face] = true;
         ++word().n_closed;
@@ -188,6 +206,7 @@ private:
     std::vector<bool> marked_;      // vertices on a loop or behind it
     std::vector<Index> leaving_;    // the boundary half-edge that starts at a vertex
     std::vector<Gate> gates_;
+    TouchingFans touching_;
     std::vector<uint8_t> first_marks_;
     Index rest_ = none;  // the half-edge of the output across which a polygon goes on
     EncodedPolygons encoded_;
@@ -197,7 +216,7 @@ private:
 
 EncodedPolygons encode_polygons(std::span<const Index> vertex, std::span<const Index> offsets, Index n_vertices) {
     const PolygonFaces faces(vertex, offsets);
-    EncodedPolygons encoded = PolygonEncoder(faces, cut_into_pieces(faces, n_vertices)).encode();
+    EncodedPolygons encoded = PolygonEncoder(faces, n_vertices, cut_into_pieces(faces, n_vertices)).encode();
     encoded.connectivity.fans = number_fans(encoded.connectivity.opposite);
     return encoded;
 }
