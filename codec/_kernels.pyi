@@ -174,11 +174,16 @@ def encode_integers(values: Annotated[NDArray[numpy.uint64], dict(shape=(None,),
 def decode_integers(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_rows: int, n_columns: int) -> Annotated[NDArray[numpy.uint64], dict(shape=(None,))]:
     """The rows, flattened."""
 
-def encode_text(prior: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], text: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
-    """Text like the prior."""
+class TextCoder:
+    """Of text like a prior."""
 
-def decode_text(prior: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_bytes: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
-    """The text."""
+    def __init__(self, prior: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def encode(self, text: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
+        """The coded text."""
+
+    def decode(self, data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_bytes: int) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,))]:
+        """The text."""
 
 def describe(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[int, int, int, int]:
     """

@@ -3,10 +3,7 @@
 import json
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
-from ebz.codec import _kernels
+from ebz.codec import text
 from ebz.codec.encoded import EncodedText
 from ebz.codec.errors import CorruptError, MeshError
 from ebz.codec.metadata_prior import PRIOR
@@ -21,21 +18,20 @@ def encode(metadata: dict[str, Any]) -> EncodedText | None:
     """The coded text, None where there is nothing; raises MeshError for what JSON cannot hold."""
     if not metadata:
         return None
-    text, raw = to_text(metadata)
-    coded = _kernels.encode_text(_view(b""), _view(raw))
-    stream = _kernels.encode_text(_view(PRIOR), _view(text))
-    return EncodedText(len(text), stream, len(raw), min(raw, coded, key=len))
+    words, raw = to_text(metadata)
+    coded = text.encode(b"", raw) if raw else b""
+    return EncodedText(len(words), text.encode(PRIOR, words), len(raw), min(raw, coded, key=len))
 
 
 def decode(encoded: EncodedText | None) -> dict[str, Any]:
     """The values; raises CorruptError where the text is not a JSON object."""
     if encoded is None:
         return {}
-    text = _kernels.decode_text(_view(PRIOR), _view(encoded.data), encoded.n_bytes).tobytes()
+    words = text.decode(PRIOR, encoded.data, encoded.n_bytes)
     raw = encoded.raw
     if len(raw) < encoded.n_raw:
-        raw = _kernels.decode_text(_view(b""), _view(raw), encoded.n_raw).tobytes()
-    return from_text(text, raw)
+        raw = text.decode(b"", raw, encoded.n_raw)
+    return from_text(words, raw)
 
 
 def to_text(metadata: dict[str, Any]) -> tuple[bytes, bytes]:
@@ -43,17 +39,17 @@ def to_text(metadata: dict[str, Any]) -> tuple[bytes, bytes]:
     raw: list[bytes] = []
     try:
         values = _to_json(metadata, raw)
-        text = json.dumps(values, ensure_ascii=False, separators=(",", ":"))
+        words = json.dumps(values, ensure_ascii=False, separators=(",", ":"))
     except (TypeError, ValueError, RecursionError) as error:
         raise MeshError(f"metadata: {error}") from None
-    return text.encode("utf-8", "surrogatepass"), b"".join(raw)
+    return words.encode("utf-8", "surrogatepass"), b"".join(raw)
 
 
-def from_text(text: bytes, raw: bytes = b"") -> dict[str, Any]:
+def from_text(words: bytes, raw: bytes = b"") -> dict[str, Any]:
     """The values; raises CorruptError where the bytes are not a JSON object."""
     strings = _Strings(raw)
     try:
-        metadata = json.loads(text.decode("utf-8", "surrogatepass"), object_hook=strings.replace)
+        metadata = json.loads(words.decode("utf-8", "surrogatepass"), object_hook=strings.replace)
         if not isinstance(metadata, dict):
             raise CorruptError("not an object")
         if strings.at != len(raw):
@@ -84,10 +80,6 @@ class _Strings:
             raise CorruptError(f"a byte string of {size} bytes, of which there are fewer")
         self.at += size
         return self._raw[self.at - size : self.at]
-
-
-def _view(data: bytes) -> npt.NDArray[np.uint8]:
-    return np.frombuffer(data, np.uint8)
 
 
 def _to_json(value: Any, raw: list[bytes]) -> Any:

@@ -215,17 +215,23 @@ Plan = Struct(
     "specials" / Prefixed(VarInt, GreedyBytes),
     "special_start" / If(lambda context: len(context.specials) > 0, Int64sl),
     "n_labels" / VarInt,
-    "labels" / If(this.n_labels > 0, Prefixed(VarInt, GreedyBytes)),
+    "labels_size" / If(this.n_labels > 0, VarInt),
 )
 
-Attribute = Struct(
+AttributeHead = Struct(
     "names" / PrefixedArray(VarInt, Prefixed(VarInt, GreedyBytes)),
     "kind" / Bytes(1),  # b, i, u, f as in numpy
     "itemsize" / Byte,
     "shape" / PrefixedArray(Byte, VarInt),  # of one entry
     "plan" / Plan,
-    "seams" / Prefixed(VarInt, GreedyBytes),
-    "data" / GreedyBytes,
+    "seams_size" / VarInt,
+    Terminated,
+)
+
+# head: an AttributeHead of n_head bytes, as it is where it has as many, else coded as text.
+# streams: labels, seams, data.
+Attribute = Struct(
+    "n_head" / VarInt, "head" / Prefixed(VarInt, GreedyBytes), "streams" / GreedyBytes
 )
 
 Nested = Prefixed(VarInt, Attribute)

@@ -26,11 +26,11 @@ def build(plan: Plan) -> dict[str, Any]:
         "specials": plan.specials,
         "special_start": plan.special_start,
         "n_labels": plan.n_labels,
-        "labels": plan.labels,
+        "labels_size": len(plan.labels),
     }
 
 
-def parse(parsed: Any, dtype: np.dtype[Any], n_components: int) -> Plan:
+def parse(parsed: Any, dtype: np.dtype[Any], n_components: int, labels: bytes) -> Plan:
     """The plan for entries of n_components; raises CorruptError, VersionError."""
     try:
         method, guess = Method(parsed.method), Guess(parsed.guess)
@@ -60,7 +60,7 @@ def parse(parsed: Any, dtype: np.dtype[Any], n_components: int) -> Plan:
         special_start=parsed.special_start or 0,
         specials=parsed.specials,
         n_labels=parsed.n_labels,
-        labels=parsed.labels or b"",
+        labels=labels,
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from ebz.codec.arrays import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
 from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedText
 from ebz.codec.errors import CorruptError, corrupt_at
-from ebz.formats import layout, plans
+from ebz.formats import heads, layout, plans
 from ebz.formats.chunks import Chunk
 
 # Longer floats exist on some machines only.
@@ -74,27 +74,41 @@ def check_names(names: Sequence[str], others: Iterable[str]) -> None:
 
 
 def _attribute(array: EncodedArray) -> dict[str, Any]:
-    return {
-        "names": [_to_bytes(name) for name in array.names],
-        "kind": array.dtype.kind.encode(),
-        "itemsize": array.dtype.itemsize,
-        "shape": array.shape,
-        "plan": plans.build(array.plan),
-        "seams": array.seams,
-        "data": array.data,
-    }
+    head = layout.build(
+        layout.AttributeHead,
+        {
+            "names": [_to_bytes(name) for name in array.names],
+            "kind": array.dtype.kind.encode(),
+            "itemsize": array.dtype.itemsize,
+            "shape": array.shape,
+            "plan": plans.build(array.plan),
+            "seams_size": len(array.seams),
+        },
+    )
+    streams = array.plan.labels + array.seams + array.data
+    return {"n_head": len(head), "head": heads.encode(head), "streams": streams}
 
 
 def _parse_attribute(parsed: Any, where: str) -> EncodedArray:
-    dtype, shape = _parse_dtype(parsed), tuple(parsed.shape)
+    head = layout.parse(layout.AttributeHead, heads.decode(parsed.head, parsed.n_head))
+    dtype, shape = _parse_dtype(head), tuple(head.shape)
     if len(shape) >= MAX_DIMENSIONS or math.prod(filter(None, shape)) >= MAX_ENTRY:
         raise CorruptError(f"an attribute of shape {shape}")
-    names = tuple(_parse_name(name) for name in parsed.names)
+    names = tuple(_parse_name(name) for name in head.names)
     check_names(names, [])
     if len(names) != 1 and shape != (len(names),):
         raise CorruptError(f"{len(names)} names for entries of shape {shape}")
-    plan = plans.parse(parsed.plan, dtype, math.prod(shape))
-    return EncodedArray(names, dtype, shape, parsed.data, plan, parsed.seams, where)
+    labels, seams, data = _streams(parsed.streams, head.plan.labels_size or 0, head.seams_size)
+    plan = plans.parse(head.plan, dtype, math.prod(shape), labels)
+    return EncodedArray(names, dtype, shape, data, plan, seams, where)
+
+
+def _streams(streams: bytes, labels_size: int, seams_size: int) -> tuple[bytes, bytes, bytes]:
+    """Labels, seams, data."""
+    start = labels_size + seams_size
+    if start > len(streams):
+        raise CorruptError(f"{len(streams)} bytes where labels and seams take {start}")
+    return streams[:labels_size], streams[labels_size:start], streams[start:]
 
 
 def _parse_all(parsed: list[Any], where: str) -> list[EncodedArray]:

@@ -400,14 +400,14 @@ Array<uint64_t> decode_integers(const Input<uint8_t>& bytes, size_t n_rows, size
     return to_numpy(without_gil([&] { return ebz::decode_integers(view(bytes), n_rows, n_columns); }));
 }
 
-nb::bytes encode_text(const Input<uint8_t>& prior, const Input<uint8_t>& text) {
-    return to_bytes(without_gil([&] { return ebz::encode_text(view(prior), view(text)); }));
+nb::bytes encode_text(const ebz::TextCoder& coder, const Input<uint8_t>& text) {
+    return to_bytes(without_gil([&] { return coder.encode(view(text)); }));
 }
 
-Array<uint8_t> decode_text(const Input<uint8_t>& prior, const Input<uint8_t>& bytes, size_t n_bytes) {
+Array<uint8_t> decode_text(const ebz::TextCoder& coder, const Input<uint8_t>& bytes, size_t n_bytes) {
     return to_numpy(without_gil([&] {
         std::vector<uint8_t> text(n_bytes);
-        ebz::decode_text(view(prior), view(bytes), text);
+        coder.decode(view(bytes), text);
         return text;
     }));
 }
@@ -546,8 +546,11 @@ NB_MODULE(_kernels, m) {
           "Rows of unsigned integers, a model per column.");
     m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,
           "The rows, flattened.");
-    m.def("encode_text", &encode_text, "prior"_a, "text"_a, "Text like the prior.");
-    m.def("decode_text", &decode_text, "prior"_a, "data"_a, "n_bytes"_a, "The text.");
+    nb::class_<ebz::TextCoder>(m, "TextCoder", "Of text like a prior.")
+        .def("__init__",
+             [](ebz::TextCoder* self, const Input<uint8_t>& prior) { new (self) ebz::TextCoder(view(prior)); }, "prior"_a)
+        .def("encode", &encode_text, "text"_a, "The coded text.")
+        .def("decode", &decode_text, "data"_a, "n_bytes"_a, "The text.");
     m.def("describe", &describe, "opposite"_a,
           "Numbers of components, boundary loops, boundary edges and edges of a surface.");
 }

@@ -15,6 +15,8 @@ struct Reader {
     bool bit(bool bit, uint32_t) { return bit; }
 };
 
+}  // namespace
+
 class TextModel {
 public:
     // text: prior and text as one; what follows `at` is not looked at but to be coded.
@@ -40,9 +42,9 @@ public:
             match_ = length_ = 0;
         }
         if (end < match_order) return;
-        size_t& place = places_[hash_of_last(text, end, match_order) >> (32 - place_bits)];
+        uint32_t& place = places_[hash_of_last(text, end, match_order) >> (32 - place_bits)];
         if (match_ == 0) match_ = place;
-        place = end;
+        place = static_cast<uint32_t>(end);
     }
 
 private:
@@ -69,10 +71,12 @@ private:
     order::Weights<n_orders, 1 << slot_bits> slots_;
     order::Weights<max_length + 1, 2> by_match_;
     std::array<uint32_t, n_orders> hashes_{};
-    std::array<size_t, 1 << place_bits> places_{};
+    std::array<uint32_t, 1 << place_bits> places_{};
     size_t match_ = 0;  // of the byte that is expected next; 0: none
     int length_ = 0;
 };
+
+namespace {
 
 template <class Coder>
 void run(TextModel& model, Coder& coder, std::span<uint8_t> text, size_t begin) {
@@ -82,33 +86,39 @@ void run(TextModel& model, Coder& coder, std::span<uint8_t> text, size_t begin) 
     }
 }
 
-// The prior, then room for n bytes, and a model that has read the prior.
-struct Primed {
-    Primed(std::span<const uint8_t> prior, size_t n) : text(prior.begin(), prior.end()) {
-        Reader reader;
-        run(model, reader, text, 0);
-        text.resize(prior.size() + n);
-    }
-
-    TextModel model;
-    std::vector<uint8_t> text;
-};
+// The prior, then room for n bytes.
+std::vector<uint8_t> behind(const std::vector<uint8_t>& prior, size_t n) {
+    std::vector<uint8_t> text(prior);
+    text.resize(prior.size() + n);
+    return text;
+}
 
 }  // namespace
 
-std::vector<uint8_t> encode_text(std::span<const uint8_t> prior, std::span<const uint8_t> text) {
-    Primed primed(prior, text.size());
-    std::copy(text.begin(), text.end(), primed.text.begin() + static_cast<ptrdiff_t>(prior.size()));
+TextCoder::TextCoder(std::span<const uint8_t> prior) : prior_(prior.begin(), prior.end()) {
+    auto model = std::make_unique<TextModel>();
+    Reader reader;
+    run(*model, reader, prior_, 0);
+    model_ = std::move(model);
+}
+
+TextCoder::~TextCoder() = default;
+
+std::vector<uint8_t> TextCoder::encode(std::span<const uint8_t> text) const {
+    TextModel model = *model_;
+    std::vector<uint8_t> both = behind(prior_, text.size());
+    std::copy(text.begin(), text.end(), both.begin() + static_cast<ptrdiff_t>(prior_.size()));
     RangeEncoder coder;
-    run(primed.model, coder, primed.text, prior.size());
+    run(model, coder, both, prior_.size());
     return coder.finish();
 }
 
-void decode_text(std::span<const uint8_t> prior, std::span<const uint8_t> bytes, std::span<uint8_t> text) {
-    Primed primed(prior, text.size());
+void TextCoder::decode(std::span<const uint8_t> bytes, std::span<uint8_t> text) const {
+    TextModel model = *model_;
+    std::vector<uint8_t> both = behind(prior_, text.size());
     RangeDecoder coder(bytes);
-    run(primed.model, coder, primed.text, prior.size());
-    std::copy(primed.text.begin() + static_cast<ptrdiff_t>(prior.size()), primed.text.end(), text.begin());
+    run(model, coder, both, prior_.size());
+    std::copy(both.begin() + static_cast<ptrdiff_t>(prior_.size()), both.end(), text.begin());
 }
 
 }  // namespace ebz

@@ -137,8 +137,11 @@ def with_header(data: bytes, **changes: int) -> bytes:
     return with_payload(data, b"H", b"".join(coded) + parameters)
 
 
-def attribute(name: bytes, kind: bytes, itemsize: int, shape: list[int], data: bytes) -> bytes:
-    """The payload of an attribute chunk."""
+def attribute(
+    name: bytes, kind: bytes, itemsize: int, shape: list[int], data: bytes, seams_size: int = 0
+) -> bytes:
+    """The payload of an attribute chunk, its head as it is."""
     head = varint(1) + varint(len(name)) + name + kind + bytes([itemsize, len(shape)])
     plan = bytes([0, 0, 0, 0, 0, 0])  # exact numbers without guess, relation, specials, labels
-    return head + b"".join(map(varint, shape)) + plan + varint(0) + data
+    head += b"".join(map(varint, shape)) + plan + varint(seams_size)
+    return 2 * varint(len(head)) + head + data

@@ -287,6 +287,25 @@ def test_attribute_names_that_are_not_utf_8_are_refused():
     assert "name" in error(with_payload(FILES["everything"], b"V", payload), ebz.CorruptError)
 
 
+def test_heads_that_their_bytes_cannot_hold_are_refused():
+    for n_head in (0, 1, 2**9 + 1, 2**63):
+        payload = varint(n_head) + varint(3) + b"abc" + b"data"
+        assert "head" in error(with_payload(FILES["everything"], b"V", payload), ebz.CorruptError)
+
+
+def test_seams_beyond_the_payload_are_refused():
+    payload = attribute(b"s", b"f", 8, [], b"\0" * 20, seams_size=21)
+    assert "seams" in error(with_payload(FILES["everything"], b"C", payload), ebz.CorruptError)
+
+
+def test_long_names_stand_as_they_are():
+    names = ["a" * 500, "b" * 480]
+    mesh = ebz.Mesh(np.eye(3), [[0, 1, 2]], {name: np.arange(3.0) for name in names})
+    data = ebz.compress(mesh)
+    assert list(ebz.decompress(data).vertex_attributes) == names
+    assert names[0].encode() in data and names[1].encode() not in data
+
+
 def test_two_attributes_of_one_name_are_corrupt():
     chunks = split(FILES["everything"])
     index = [kind for kind, _ in chunks].index(b"V")

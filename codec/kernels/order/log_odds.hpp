@@ -19,11 +19,12 @@ namespace ebz::order {
 // What a feature adds, in 2^-16, and how often it was met.
 struct Weight {
     static constexpr int fraction_bits = 8;  // below stretch_unit
-    static constexpr int32_t limit = 16 * stretch_unit << fraction_bits, max_count = 255;
+    static constexpr int32_t limit = 16 * stretch_unit << fraction_bits;
+    static constexpr uint32_t max_count = 255;
 
     void learn(int error) {
         value = std::clamp(value + ((error * rates[count]) >> 12), -limit, limit);
-        count += count < max_count;
+        if (count < max_count) ++count;
     }
 
     // In 2^-12: 0.02 in the long run, 0.31 at first; error has 17 bits, so products fit 31.
@@ -33,7 +34,9 @@ struct Weight {
         return table;
     }();
 
-    int32_t value = 0, count = 0;
+    // 22 bits and 8: in one word, since there are many.
+    int32_t value : 24 = 0;
+    uint32_t count : 8 = 0;
 };
 
 class LogOdds {
