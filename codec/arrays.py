@@ -63,9 +63,11 @@ def check_indices(
     n_vertices: int,
 ) -> None:
     """Raises MeshError where a corner is no vertex; offsets None: rows of three."""
-    if not np.issubdtype(corners.dtype, np.integer):
+    if corners.dtype.kind not in "iu":
         raise MeshError(f"{owner}s: dtype {corners.dtype} is not an integer")
-    if not corners.size or (corners.min() >= 0 and corners.max() < n_vertices):
+    # As unsigned integers, negative ones are the largest.
+    unsigned = corners.view(f"{corners.dtype.byteorder}u{corners.itemsize}")
+    if not corners.size or unsigned.max() < n_vertices:
         return
     flat = corners.reshape(-1)
     at = int(np.flatnonzero((flat < 0) | (flat >= n_vertices))[0])

@@ -43,6 +43,7 @@ def _add_all(state: Any, owner: str, attributes: Attributes) -> None:
 
 
 def _add(state: Any, name: str, values: npt.NDArray[Any]) -> None:
-    dtype = values.dtype.newbyteorder("<")
-    state.update(f"{name}\0{dtype.str}\0{values.shape}\0".encode("utf-8", "surrogatepass"))
-    state.update(np.ascontiguousarray(values, dtype).reshape(-1).view(np.uint8).data)
+    little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
+    head = f"{name}\0{little.dtype.str}\0{values.shape}\0"
+    state.update(head.encode("utf-8", "surrogatepass"))
+    state.update(little)

@@ -134,10 +134,15 @@ class Points:
     def take(self, rows: npt.NDArray[Any]) -> "Points":
         """Those rows, in that order."""
         if not len(self.exceptions):
-            return replace(self, integers=self.integers[rows])
+            return replace(self, integers=taken(self.integers, rows))
         marked = np.zeros(self.integers.shape, bool)
         marked.reshape(-1)[self.exceptions] = True
-        return Points(self.lattice, self.integers[rows], np.flatnonzero(marked[rows]))
+        return Points(self.lattice, taken(self.integers, rows), np.flatnonzero(marked[rows]))
+
+
+def taken(values: npt.NDArray[Any], rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Those rows, which are all in range: "clip" spares the buffer of the other modes."""
+    return np.take(values, rows, axis=0, mode="clip")
 
 
 @np.errstate(all="ignore")

@@ -100,9 +100,7 @@ def _vertices(values: npt.ArrayLike) -> npt.NDArray[Any]:
     if array.size == 0 and array.ndim < 2:
         array = np.zeros((0, 3), np.float32)
     if array.dtype not in VERTEX_DTYPES:
-        if not np.issubdtype(array.dtype, np.number) or np.issubdtype(
-            array.dtype, np.complexfloating
-        ):
+        if array.dtype.kind not in "iuf":
             raise MeshError(f"vertices: dtype {array.dtype} is not a real number")
         array = array.astype(np.float64)
     if array.ndim != 2 or array.shape[1] != 3:

@@ -98,16 +98,15 @@ def encode(
     stream, method = positions.encode(
         surface, points, n_along, stored.dtype, position_method(level)
     )
-    exact = mesh.vertices[arrangement.sites].reshape(-1)[points.exceptions]
+    exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
     report("attributes", 3, N_STAGES)
     keep_rotation = keeps_rotation(mesh.face_attributes)
     split = welding.split(surface, arrangement.splits, len(stored))
     kept = source_order.kept(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
     )
-    sites = Sites(
-        surface.opposite, split.vertex, stored[order.vertices], split.site, surface.polygons
-    )
+    placed = lattice.taken(stored, order.vertices)
+    sites = Sites(surface.opposite, split.vertex, placed, split.site, surface.polygons)
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -129,7 +128,9 @@ def encode(
         ),
         vertex_attributes=coding.encode(
             mesh.vertex_attributes, order.vertices, sites.by_vertex, attribute_precision
-        ),
+        )
+        if mesh.vertex_attributes
+        else [],
         face_attributes=coding.encode(
             mesh.face_attributes, order.faces, sites.by_face, attribute_precision
         )
@@ -179,8 +180,10 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     report("attributes", 3, N_STAGES)
     sites = Sites(surface.opposite, split.vertex, vertices, split.site, surface.polygons)
     carried = Carried(
-        coding.decode(encoded.vertex_attributes, sites.by_vertex),
-        coding.decode(encoded.face_attributes, sites.by_face),
+        coding.decode(encoded.vertex_attributes, sites.by_vertex)
+        if encoded.vertex_attributes
+        else {},
+        coding.decode(encoded.face_attributes, sites.by_face) if encoded.face_attributes else {},
         corners.decode(encoded.corner_attributes, sites),
         rows.decode(encoded.elements, n_vertices),
         _decode_metadata(encoded),

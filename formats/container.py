@@ -1,5 +1,6 @@
 """The chunks of one mesh <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
 
+import math
 from collections.abc import Iterator, Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -287,16 +288,16 @@ def _parse_lattice(header: Any) -> Lattice:
         origin = tuple(parameters.origin)
         if not 1 <= parameters.bits <= MAX_BITS:
             raise CorruptError(f"a lattice of {parameters.bits} bits")
-        if not np.isfinite([*origin, parameters.side]).all():
+        if not all(map(math.isfinite, (*origin, parameters.side))):
             raise CorruptError("the box of the lattice is not finite")
         return BoxLattice(parameters.bits, origin, parameters.side)
     if kind == "step":
-        if not np.isfinite(parameters.max_error) or parameters.max_error <= 0:
+        if not math.isfinite(parameters.max_error) or parameters.max_error <= 0:
             raise CorruptError(f"a maximal error of {parameters.max_error}")
         return StepLattice(parameters.max_error)
     if kind == "grid":
         origin = tuple(parameters.origin)
-        if not np.isfinite([*origin, parameters.step]).all() or parameters.step <= 0:
+        if not all(map(math.isfinite, (*origin, parameters.step))) or parameters.step <= 0:
             raise CorruptError(f"a grid of origin {origin} and step {parameters.step}")
         return GridLattice(origin, parameters.step)
     return FloatLattice()

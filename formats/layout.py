@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import construct
 from construct import (
     Array,
     Byte,
@@ -10,6 +11,7 @@ from construct import (
     Computed,
     Construct,
     ConstructError,
+    Container,
     Enum,
     Float32l,
     Float64l,
@@ -24,7 +26,6 @@ from construct import (
     Prefixed,
     PrefixedArray,
     StreamError,
-    Struct,
     Switch,
     Terminated,
     this,
@@ -112,6 +113,42 @@ def varint(value: int) -> bytes:
 
 
 VarInt = _VarInt()
+
+
+class Struct(construct.Struct):  # type: ignore[misc]
+    """That of construct without paths and hooks, which take most of its time."""
+
+    def __init__(self, *fields: Any) -> None:
+        super().__init__(*fields)
+        self._fields = [
+            (field.name, field.subcon if isinstance(field, construct.Renamed) else field)
+            for field in self.subcons
+        ]
+
+    def _parse(self, stream: Any, context: Any, path: str) -> Any:
+        inner = self._context(context)
+        values = Container()
+        for name, field in self._fields:
+            value = field._parse(stream, inner, path)
+            if name:
+                inner[name] = values[name] = value
+        return values
+
+    def _build(self, values: Any, stream: Any, context: Any, path: str) -> Any:
+        inner = self._context(context)
+        inner.update(values)
+        for name, field in self._fields:
+            field._build(values.get(name), stream, inner, path)
+        return values
+
+    @staticmethod
+    def _context(outer: Any) -> Any:
+        inner = Container(_=outer)
+        inner["_root"] = outer.get("_root", inner)
+        for name in ("_params", "_parsing", "_building", "_sizing"):
+            inner[name] = outer[name]
+        return inner
+
 
 LATTICE_KINDS = ("float", "decimal", "box", "step", "grid")
 DTYPE_SIZES = (4, 8)

@@ -247,6 +247,10 @@ Array<int32_t> decode_gluing(const Input<uint8_t>& bytes, const Input<int32_t>& 
     }));
 }
 
+Array<int32_t> glue(const Input<int32_t>& vertex, const Input<int32_t>& site) {
+    return to_numpy(without_gil([&] { return ebz::glue(view(vertex), view(site)); }));
+}
+
 nb::bytes encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& point, int32_t n_points,
                         const Input<int32_t>& vertex) {
     return to_bytes(
@@ -525,6 +529,7 @@ NB_MODULE(_kernels, m) {
           "Which vertices of the pieces are one site; site: of each, numbered by first use.");
     m.def("decode_gluing", &decode_gluing, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a, "n_copies"_a,
           "The site of each vertex of the pieces.");
+    m.def("glue", &glue, "vertex"_a, "site"_a, "The site of each corner.");
     m.def("encode_splits", &encode_splits, "opposite"_a, "point"_a, "n_points"_a, "vertex"_a,
           "Which corners at each point belong to which vertex.");
     m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,

@@ -151,4 +151,10 @@ std::vector<Index> decode_gluing(std::span<const uint8_t> bytes, const GluedPiec
     return site;
 }
 
+std::vector<Index> glue(std::span<const Index> vertex, std::span<const Index> site) {
+    std::vector<Index> sites(vertex.size());
+    for (size_t c = 0; c < sites.size(); ++c) sites[c] = site[vertex[c]];
+    return sites;
+}
+
 }  // namespace ebz

@@ -24,4 +24,7 @@ std::vector<uint8_t> encode_gluing(const GluedPieces& pieces, std::span<const In
 // Throws Corrupt where the stream contradicts the counts.
 std::vector<Index> decode_gluing(std::span<const uint8_t> bytes, const GluedPieces& pieces);
 
+// The site of each corner.
+std::vector<Index> glue(std::span<const Index> vertex, std::span<const Index> site);
+
 }  // namespace ebz
