@@ -48,10 +48,10 @@ void Axes::begin(const Surroundings& s, const Prediction& p) {
 void Axes::find_contexts(size_t turn, Expectation& x) {
     const size_t d = p_->axes[turn];
     x.turn = turn;
+    set_keys(turn);  // first: what is recalled has to come from memory
     nearest_ = nearest(d);
     set_sizes(d, x);
     set_contexts(turn, x);
-    set_keys(turn);
 }
 
 void Axes::expect(size_t turn, Expectation& x) {

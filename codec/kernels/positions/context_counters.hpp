@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "counter.hpp"
@@ -17,7 +18,7 @@ inline namespace EBZ_INSTRUCTIONS {
 
 class ContextCounters {
 public:
-    static constexpr size_t n_slots = 31;
+    static constexpr size_t n_slots = 24;
 
     explicit ContextCounters(size_t n_vertices)
         : log2_lines_(std::clamp(static_cast<int>(std::bit_width(n_vertices)), 9, 13)), lines_(n << log2_lines_) {}
@@ -27,13 +28,13 @@ public:
         for (size_t i = 0; i < n; ++i) {
             line_[i] = &lines_[(i << log2_lines_) + (x.context[i] >> (32 - log2_lines_))];
             __builtin_prefetch(line_[i], 1);
-            __builtin_prefetch(&line_[i]->counters[n_slots / 2 + 1], 1);
+            __builtin_prefetch(&line_[i]->counters[n_slots - 1], 1);
         }
     }
 
     void start(const Expectation& x) {
         for (size_t i = 0; i < n; ++i) {
-            if (line_[i]->tag != x.context[i]) *line_[i] = {{}, x.context[i]};
+            if (line_[i]->tag != x.context[i]) line_[i]->start(x.context[i]);
         }
     }
 
@@ -55,10 +56,20 @@ private:
     static constexpr size_t n = Expectation::n_contexts;
     static_assert(n == 5, "the lanes of states_");
 
-    struct alignas(64) Line {  // two cache lines
-        std::array<CounterState, n_slots> counters;
+    // Two cache lines, the slots asked most in the first.
+    struct alignas(64) Line {
         uint32_t tag;
+        std::array<CounterState, n_slots> counters;
+
+        // In vectors: assigning it becomes an instruction for long blocks, which is slow to begin.
+        void start(uint32_t context) {
+            const WideIntLanes unseen{};
+            for (size_t at = 0; at < sizeof(Line); at += sizeof unseen)
+                std::memcpy(reinterpret_cast<std::byte*>(this) + at, &unseen, sizeof unseen);
+            tag = context;
+        }
     };
+    static_assert(sizeof(Line) == 128);
 
     int log2_lines_;
     std::vector<Line> lines_;

@@ -40,10 +40,11 @@ public:
     }
 
     void update(const Inputs& x, float change) {
+        Inputs &a = *active_a_, &b = *active_b_;
         for (size_t i = 0; i < n_lanes; ++i) {
             const WideLanes step = change * x[i];
-            (*active_a_)[i] += step;
-            (*active_b_)[i] += step;
+            a[i] += step;
+            b[i] += step;
         }
     }
 

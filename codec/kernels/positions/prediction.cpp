@@ -30,11 +30,12 @@ void Predictor::average(const Surroundings& s, Prediction& p) {
         weights += weight;
         normal = normal + cross(u, w);
     }
-    p.plain = sum * (1.0 / s.n_parallelograms);
+    const double share = 1.0 / s.n_parallelograms;
+    p.plain = sum * share;
     p.weighted = weighted * (1.0 / weights);
     for (const auto& q : all)
-        for (size_t d = 0; d < 3; ++d)
-            p.spread[d] += std::fabs(q.a[d] + q.b[d] - q.apex[d] - p.plain[d]) / s.n_parallelograms;
+        for (size_t d = 0; d < 3; ++d) p.spread[d] += std::fabs(q.a[d] + q.b[d] - q.apex[d] - p.plain[d]);
+    p.spread = p.spread * share;
     const double length = std::sqrt(dot(normal, normal));
     if (length > 0) p.normal = normal * (1.0 / length);
 }
@@ -50,9 +51,10 @@ void Predictor::fit(const Surroundings& s, Prediction& p) {
             x[0] = q.apex[d] - midpoints_[i][d];
             x[1] = q.a[d] - q.b[d];
             for (size_t k = 0; k < 4; ++k) x[2 + k] = (q.wings >> k & 1) != 0 ? q.wing[k][d] - midpoints_[i][d] : 0;
-            p.fitted[d] += (midpoints_[i][d] + fits_[q.wings].predict(x)) / s.n_parallelograms;
+            p.fitted[d] += midpoints_[i][d] + fits_[q.wings].predict(x);
         }
     }
+    p.fitted = p.fitted * (1.0 / s.n_parallelograms);
 }
 
 Predictor::Blend::Vector Predictor::blend_inputs(const Prediction& p, size_t d) const {

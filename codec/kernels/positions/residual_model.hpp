@@ -58,7 +58,7 @@ private:
 
     // Nodes of the decision tree, of weights; slots of the counters of one context.
     static constexpr size_t side_node = 0, class_node = 1, digit_node = 8, hit_node = 24;
-    static constexpr size_t side_slot = 0, class_slot = 1, digit_slot = 15, hit_slot = 30;
+    static constexpr size_t side_slot = 0, class_slot = 1, digit_slot = 15, hit_slot = 23;
     static constexpr size_t n_slots = ContextCounters::n_slots;
 
     void start(const Expectation& x) {
@@ -136,18 +136,13 @@ private:
 
     int64_t code_digits(int n_digits, int64_t a) {
         const auto group = static_cast<size_t>(std::clamp(n_digits - 1 - x_->shift, 0, 3));
-        const int n_mixed = group < 3 ? 2 : 1;  // deeper ones only if an exact value may tell them
-        bool first = false;
         for (int left = n_digits; left > 0; --left) {
             const int depth = n_digits - left;
-            if (depth >= n_mixed && !values_.any()) return code_raw(left, a);
+            if (depth > 0 && !values_.any()) return code_raw(left, a);  // close to noise
             const size_t node = digit_node + static_cast<size_t>(std::min(depth, 3)) * 4 + group;
-            const size_t slot = depth == 0   ? digit_slot + group * 2 + (negative_ ? 1 : 0)
-                                : depth == 1 ? digit_slot + 8 + std::min<size_t>(group * 2 + (first ? 1 : 0), 6)
-                                             : n_slots;  // no counters
+            const size_t slot = depth == 0 ? digit_slot + group * 2 + (negative_ ? 1 : 0) : n_slots;  // no counters
             distributions_.split_above_low(left - 1);
-            const bool upper = narrow(low_ + (int64_t{1} << (left - 1)), node, slot, a);
-            if (depth == 0) first = upper;
+            narrow(low_ + (int64_t{1} << (left - 1)), node, slot, a);
         }
         return low_;
     }
