@@ -41,8 +41,8 @@ def encode(
 
     streams = threads.run(by, _candidates(points, dtype, method))
     stream, chosen = min(streams, key=lambda pair: len(pair[0]))
-    if not stream:  # more than the 32 bits of the fast method
-        return encode(surface, points, n_along, dtype, Method.MEDIUM)
+    if not stream:  # more than the 32 bits of the fast and medium methods
+        return encode(surface, points, n_along, dtype, Method.LIGHT)
     return stream, chosen
 
 

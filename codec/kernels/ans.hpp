@@ -51,6 +51,11 @@ public:
         return symbol;
     }
 
+    template <class Model>
+    void fixed(const std::array<Model, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
+        for (size_t lane = 0; lane < n_lanes; ++lane) fixed(lane, models[lane], symbols[lane]);
+    }
+
     // p1: of 2^15, neither 0 nor all.
     bool bit(size_t lane, bool bit, uint32_t p1) {
         const uint32_t p0 = 32768 - p1;
@@ -128,20 +133,15 @@ public:
         return symbol;
     }
 
-    // States are held in registers, all lanes side by side.
     template <int n>
     void symbols(const std::array<AdaptiveSymbol<n>*, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
-        std::array<uint64_t, n_lanes> states = states_;
-        for (size_t lane = 0; lane < n_lanes; ++lane) {
-            constexpr int total_bits = AdaptiveSymbol<n>::total_bits;
-            const auto slot = static_cast<uint32_t>(states[lane]) & ((1u << total_bits) - 1);
-            symbols[lane] = models[lane]->find(slot);
-            const Share share = models[lane]->share(symbols[lane]);
-            states[lane] = share.frequency * (states[lane] >> total_bits) + slot - share.start;
-        }
-        for (uint64_t& state : states) refill(state);
-        states_ = states;
+        side_by_side([&](size_t lane) -> const AdaptiveSymbol<n>& { return *models[lane]; }, symbols);
         for (size_t lane = 0; lane < n_lanes; ++lane) models[lane]->learn(symbols[lane]);
+    }
+
+    template <class Model>
+    void fixed(const std::array<Model, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
+        side_by_side([&](size_t lane) -> const Model& { return models[lane]; }, symbols);
     }
 
     template <class Model>
@@ -173,6 +173,21 @@ public:
     }
 
 private:
+    // States are held in registers.
+    template <class ModelOf>
+    void side_by_side(ModelOf model_of, std::array<uint32_t, n_lanes>& symbols) {
+        std::array<uint64_t, n_lanes> states = states_;
+        for (size_t lane = 0; lane < n_lanes; ++lane) {
+            const auto& model = model_of(lane);
+            const auto slot = static_cast<uint32_t>(states[lane]) & ((1u << model.total_bits) - 1);
+            symbols[lane] = model.find(slot);
+            const Share share = model.share(symbols[lane]);
+            states[lane] = share.frequency * (states[lane] >> model.total_bits) + slot - share.start;
+        }
+        for (uint64_t& state : states) refill(state);
+        states_ = states;
+    }
+
     // Without a branch: whether a word is due is as good as random.
     void refill(uint64_t& state) {
         const uint8_t* p = bytes_.data() + at_;

@@ -15,50 +15,13 @@
 #include <vector>
 
 #include "../adaptive_symbol.hpp"
-#include "../ans.hpp"
-#include "../bits.hpp"
 #include "fast.hpp"
 #include "residual_digits.hpp"
 #include "surface.hpp"
+#include "two_part_stream.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
-
-// A stream: the size of the symbols' part in 4 bytes, that part, the plain bits.
-struct FastEncoder {
-    static constexpr bool encoding = true;
-
-    ans::Encoder<3> symbols;
-    BitWriter plain;
-
-    std::vector<uint8_t> finish() {
-        const std::vector<uint8_t> first = symbols.finish(), second = plain.finish();
-        std::vector<uint8_t> bytes(4 + first.size() + second.size());
-        for (size_t i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(first.size() >> (8 * i));
-        std::copy(second.begin(), second.end(), std::copy(first.begin(), first.end(), bytes.begin() + 4));
-        return bytes;
-    }
-};
-
-struct FastDecoder {
-    static constexpr bool encoding = false;
-
-    ans::Decoder<3> symbols;
-    BitReader plain;
-
-    explicit FastDecoder(std::span<const uint8_t> bytes) : FastDecoder(bytes, size_of_symbols(bytes)) {}
-
-private:
-    FastDecoder(std::span<const uint8_t> bytes, size_t n)
-        : symbols(bytes.subspan(std::min<size_t>(bytes.size(), 4), n)), plain(bytes.subspan(std::min(bytes.size(), 4 + n))) {}
-
-    static size_t size_of_symbols(std::span<const uint8_t> bytes) {
-        if (bytes.size() < 4) return 0;
-        size_t n = 0;
-        for (size_t i = 0; i < 4; ++i) n |= size_t{bytes[i]} << (8 * i);
-        return std::min(n, bytes.size() - 4);
-    }
-};
 
 // A coordinate's residual is told by its size; those far from what was expected by one told before, or in full.
 class FastModel {
@@ -236,14 +199,14 @@ std::vector<uint8_t> encode_fast(const Surface& mesh, std::span<const int64_t> v
         vertices[i / 3].position[i % 3] = static_cast<uint32_t>(value);
     }
     if (!fits) return {};
-    FastEncoder coder;
+    TwoPartEncoder coder;
     code_positions_fast(coder, mesh, vertices);
     return coder.finish();
 }
 
 void decode_fast(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
     std::vector<FastVertex> vertices(values.size() / 3);
-    FastDecoder coder(bytes);
+    TwoPartDecoder coder(bytes);
     code_positions_fast(coder, mesh, vertices);
     for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int32_t>(vertices[i / 3].position[i % 3]);
 }

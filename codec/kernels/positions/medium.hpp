@@ -19,6 +19,7 @@ std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t>
 void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values);
 }
 
+// Nothing where a value has more than 32 bits.
 inline std::vector<uint8_t> encode_positions_medium(const Surface& mesh, std::span<const int64_t> values) {
 #ifdef EBZ_HAS_AVX2
     if (use_avx2()) return avx2::encode_medium(mesh, values);

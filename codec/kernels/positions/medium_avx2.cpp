@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cfloat>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -15,11 +14,9 @@
 #include <span>
 #include <vector>
 
-#include "least_squares.hpp"
 #include "medium.hpp"
-#include "recall.hpp"
+#include "medium_order.hpp"
 #include "surface.hpp"
-#include "traversal.hpp"
 #include "wrapping.hpp"
 
 #include "../avx2.hpp"

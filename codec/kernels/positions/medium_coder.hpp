@@ -1,143 +1,152 @@
-// The medium method: vertices in order of traversal, axis by axis, one symbol each.
+// The medium method: vertices in the order of gates, from one or two parallelograms, in integers of 32 bits.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "../ans.hpp"
+#include "lanes.hpp"
 #include "medium.hpp"
-#include "light_model.hpp"
-#include "medium_predictor.hpp"
-#include "medium_survey.hpp"
-#include "light_values.hpp"
+#include "medium_model.hpp"
+#include "medium_order.hpp"
 #include "surface.hpp"
-#include "traversal.hpp"
-#include "wrapping.hpp"
+#include "two_part_stream.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-template <class Coder>
-class MediumCoder {
-public:
-    MediumCoder(Coder& coder, const Surface& mesh, std::span<int64_t> xyz)
-        : coder_(coder), corners_(mesh), traversal_(mesh, corners_), surveyor_(mesh, corners_, traversal_), xyz_(xyz.data()) {}
-
-    void run() {
-        for (int32_t v; (v = traversal_.next_vertex()) >= 0;) {
-            int64_t* position = xyz_ + 3 * static_cast<size_t>(v);
-            surveyor_.survey(v, s_);
-            if (s_.n_neighbours == 0) {
-                seeds_.code(coder_, position);
-                surveyor_.settle(v, position, {});
-                continue;
-            }
-            predictor_.predict(s_);
-            neighbour_agrees_ = {};
-            for (size_t turn = 0; turn < 3; ++turn) code_axis(turn, position);
-            surveyor_.settle(v, position, predictor_.learn());
-        }
-    }
-
-private:
-    static constexpr size_t n_contexts = 3;
-    using Model = LightModel<n_contexts>;
-
-    void code_axis(size_t turn, int64_t* position) {
-        predictor_.expect(turn);
-        const size_t d = predictor_.axis(turn);
-        const int64_t base = predictor_.base();
-        const int shift = std::max(0, (predictor_.level() - 12) / 2);
-        const int64_t nearest = find_values(turn, d, base, shift);
-        int64_t e = wrapping_difference(position[d], base);
-        if (!values_.code(coder_, d, shift == 0, e))
-            e = model_.code(coder_, d, contexts(turn, d, base, shift, nearest), predictor_.set(turn), shift, e);
-        position[d] = wrapping_sum(base, e);
-        const bool exact = values_.learn(e);
-        predictor_.reveal(turn, position[d], e, exact);
-        if (turn < 2) count_agreements(d);
-    }
-
-    // Which points agree with the value on this axis.
-    void count_agreements(size_t d) {
-        const double value = predictor_.value(d);
-        for (size_t i = 0; i < s_.n_kept(); ++i) neighbour_agrees_[i] += s_.neighbours[i][d] == value ? 1 : 0;
-    }
-
-    // The least residual that would repeat a neighbour's value.
-    int64_t find_values(size_t turn, size_t d, int64_t base, int shift) {
-        const auto from = static_cast<double>(base);
-        double nearest = s_.neighbours[0][d] - from, best = nearest;
-        size_t most = neighbour_agrees_[0];
-        for (size_t i = 1; i < s_.n_kept(); ++i) {
-            const double off = s_.neighbours[i][d] - from;
-            if (std::fabs(off) < std::fabs(nearest)) nearest = off;
-            const size_t agrees = neighbour_agrees_[i];
-            if (agrees > most || (agrees == most && std::fabs(off) < std::fabs(best))) {
-                most = agrees;
-                best = off;
-            }
-        }
-        values_.clear();
-        if (shift > 0) values_.add(predictor_.is_plain() ? LightValues::plain_base : LightValues::expected_base, turn, 0, 0, 0);
-        values_.add(LightValues::neighbour, turn, agreement(turn, most), 0, static_cast<int64_t>(best));
-        return static_cast<int64_t>(nearest);
-    }
-
-    // 0 at first, then 1, 2, 3 for none, some and all of the axes before.
-    static size_t agreement(size_t turn, size_t n_agree) { return turn == 0 ? 0 : n_agree == 0 ? 1 : n_agree < turn ? 2 : 3; }
-
-    Model::Contexts contexts(size_t turn, size_t d, int64_t base, int shift, int64_t nearest) const {
-        const double cell = std::bit_cast<double>(static_cast<uint64_t>(1023 - shift) << 52);  // 2^-shift
-        const auto in_cells = [&](double x, float scale) {
-            const auto off = static_cast<float>((x - static_cast<double>(base)) * cell);
-            return static_cast<size_t>(clamp(off * scale + 7.5f, 0.0f, 14.0f));
-        };
-        const auto near = static_cast<size_t>(std::clamp<int64_t>(nearest >> shift, -7, 7) + 7);
-        const size_t fraction = in_cells(predictor_.expected(), predictor_.is_plain() ? 2.0f : 4.0f);
-        const auto wide = static_cast<size_t>(predictor_.wide(shift));
-        const auto level = static_cast<size_t>(predictor_.level() - 2 * shift);  // <= 13
-        const auto n = static_cast<size_t>(std::min(s_.n_parallelograms, 4));
-        typename Model::Contexts x{(d * 15 + near) * 15 + fraction, (turn * 18 + wide) * 5 + n, (d * 18 + level) * 18 + wide};
-        return x;
-    }
-
-    Coder& coder_;
-    const CornersOfVertices corners_;
-    Traversal traversal_;
-    MediumSurveyor surveyor_;
-    MediumSurroundings s_;
-    MediumPredictor predictor_;
-    LightValues values_;
-    Model model_;
-    LightSeeds seeds_;
-    std::array<uint8_t, MediumSurroundings::max_neighbours> neighbour_agrees_{};
-    int64_t* xyz_;
+// A vertex and its residual; the fourth lanes do not matter.
+struct alignas(32) MediumSite {
+    UintLanes at;
+    Lanes residual;
 };
 
 template <class Coder>
-void code_positions_medium(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
-    std::make_unique<MediumCoder<Coder>>(coder, mesh, xyz)->run();
+class MediumCoder {
+public:
+    // sites: as many as the surface has vertices.
+    MediumCoder(Coder& coder, const Surface& mesh, MediumSite* sites)
+        : coder_(coder), mesh_(mesh), opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), order_(mesh), sites_(sites) {}
+
+    void run() {
+        const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
+        for (int32_t t = 0; t < n_faces; ++t)
+            if (!order_.visited(t)) component(t);
+        for (int32_t v = 0; v < mesh_.n_vertices; ++v)
+            if (!order_.known(v)) step_to(v, 0);
+    }
+
+private:
+    void component(int32_t face) {
+        size_t kind = 0;
+        for (int32_t c = 3 * face; c < 3 * face + 3; ++c, kind = 1) {
+            if (order_.known(vertex_[c])) latest_ = sites_[vertex_[c]].at;
+            else step_to(vertex_[c], kind);
+        }
+        order_.visit_first(face);
+        for (int32_t h; (h = order_.next_gate()) >= 0;) {
+            const int32_t v = vertex_[previous(h)], other = order_.first_gate(v);
+            predict(v, other, h);
+            order_.learn(v);
+            order_.visit_from(h);
+            order_.visit_from(other);
+        }
+    }
+
+    // From the vertex before, without a parallelogram.
+    void step_to(int32_t v, size_t kind) {
+        MediumSite& site = sites_[v];
+        const UintLanes e = model_.code_step(coder_, kind, steps_[kind], site.at - latest_);
+        site = {latest_ + e, Lanes{}};
+        latest_ = site.at;
+        steps_[kind] = magnitudes(as_floats(e));
+        order_.learn(v);
+    }
+
+    // g and h: gates of v, the same if there is but one.
+    void predict(int32_t v, int32_t g, int32_t h) {
+        const MediumSite &a = start(g), &b = end(g), &o = apex(g), &c = start(h), &d = end(h), &p = apex(h);
+        const UintLanes first = a.at + b.at - o.at, apart = c.at + d.at - p.at - first;
+        const UintLanes plain = first + as_uints(as_ints(apart) >> 1);
+        const Lanes off = as_floats(apart);
+        const Lanes sum = as_floats(a.at - first) + as_floats(b.at - first) + as_floats(c.at - first) + as_floats(d.at - first);
+        const Lanes smooth = clamp(off * 0.3f + sum * 0.1f, -1e9f, 1e9f);
+        const IntLanes is_plain = lead_ <= 0.0f;
+        const UintLanes base = choose(is_plain, plain, first + as_uints(rounded(smooth)));
+        const Lanes size = (magnitudes(a.residual) + magnitudes(b.residual) + magnitudes(c.residual) + magnitudes(d.residual)) * 0.25f;
+        const Lanes spread = g == h ? size : magnitudes(off);
+        const Lanes fraction = (smooth - as_floats(base - first)) * (is_plain ? splat<Lanes>(2.0f) : splat<Lanes>(4.0f));
+        UintLanes near = a.at - base;
+        for (const MediumSite* x : {&b, &c, &d}) near = nearer(near, x->at - base);
+        const Lanes drift = (a.residual + b.residual + c.residual + d.residual) * 0.25f;
+
+        MediumSite& site = sites_[v];
+        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, g == h ? 0 : 1}, site.at - base);
+        site = {base + e, as_floats(e)};
+        const Lanes from_plain = magnitudes(as_floats(site.at - plain)), from_smooth = magnitudes(as_floats(site.at - first) - smooth);
+        // Bit patterns are nearly logarithms.
+        const IntLanes lead = reinterpret_cast<IntLanes>(from_plain + 1.0f) - reinterpret_cast<IntLanes>(from_smooth + 1.0f);
+        lead_ += (__builtin_convertvector(lead, Lanes) - lead_) * 0.01f;
+    }
+
+    const MediumSite& start(int32_t gate) const { return sites_[vertex_[gate]]; }
+    const MediumSite& end(int32_t gate) const { return sites_[vertex_[next(gate)]]; }
+    const MediumSite& apex(int32_t gate) const { return sites_[vertex_[previous(opposite_[gate])]]; }
+
+    static UintLanes choose(IntLanes mask, UintLanes x, UintLanes y) { return (x & as_uints(mask)) | (y & ~as_uints(mask)); }
+
+    static UintLanes nearer(UintLanes x, UintLanes y) { return choose(magnitudes(as_floats(y)) < magnitudes(as_floats(x)), y, x); }
+
+    // The nearest integers.
+    static IntLanes rounded(Lanes x) {
+        const Lanes y = x + 0.5f;
+        const IntLanes whole = truncated(y);
+        return whole + (__builtin_convertvector(whole, Lanes) > y);
+    }
+
+    Coder& coder_;
+    const Surface& mesh_;
+    const int32_t *opposite_, *vertex_;
+    GateOrder order_;
+    MediumSite* sites_;
+    UintLanes latest_{};
+    std::array<Lanes, 2> steps_{};
+    Lanes lead_{};  // of the smooth prediction over the plain one
+    MediumModel model_;
+};
+
+template <class Coder>
+void code_positions_medium(Coder& coder, const Surface& mesh, MediumSite* sites) {
+    std::make_unique<MediumCoder<Coder>>(coder, mesh, sites)->run();
 }
 
 std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t> values) {
-    // The shared path writes to each vertex what it read from it.
-    std::vector<int64_t> copy(values.begin(), values.end());
-    ans::Encoder<3> coder;
-    code_positions_medium(coder, mesh, copy);
+    const auto sites = std::make_unique_for_overwrite<MediumSite[]>(values.size() / 3);
+    bool fits = true;
+    for (size_t v = 0; v < values.size() / 3; ++v) {
+        for (size_t d = 0; d < 3; ++d) {
+            const auto value = static_cast<int32_t>(values[3 * v + d]);
+            fits &= value == values[3 * v + d];
+            sites[v].at[d] = static_cast<uint32_t>(value);
+        }
+        sites[v].at[3] = 0;
+    }
+    if (!fits) return {};
+    TwoPartEncoder coder;
+    code_positions_medium(coder, mesh, sites.get());
     return coder.finish();
 }
 
 void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
-    ans::Decoder<3> coder(bytes);
-    code_positions_medium(coder, mesh, values);
+    const auto sites = std::make_unique_for_overwrite<MediumSite[]>(values.size() / 3);
+    TwoPartDecoder coder(bytes);
+    code_positions_medium(coder, mesh, sites.get());
+    for (size_t v = 0; v < values.size() / 3; ++v)
+        for (size_t d = 0; d < 3; ++d) values[3 * v + d] = static_cast<int32_t>(sites[v].at[d]);
 }
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -16,16 +16,16 @@
 namespace ebz::positions {
 
 enum class Method : uint8_t {
-    fast,    // one symbol per coordinate, three coders side by side; values of 32 bits
-    light,   // as medium, from fits and with more exact values
+    fast,    // in the order of the faces, one symbol per coordinate, three coders side by side; values of 32 bits
+    light,   // one symbol per coordinate under a mix of contexts, from fits
     strong,  // every model there is
     float32_bits,  // values are floats by their order (spaces.hpp), predictions are made in floats
     float64_bits,
-    medium,  // one symbol per coordinate under a mix of contexts
+    medium,  // as fast, in an order of its own, under means of contexts
 };
 
-// values: 3 per vertex; magnitudes up to 2^40 but for the float methods.  Method fast gives nothing where a
-// value has more than 32 bits.
+// values: 3 per vertex; magnitudes up to 2^40 but for the float methods.  Methods fast and medium give nothing
+// where a value has more than 32 bits.
 std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> values, Method method);
 
 // Fills values with what was encoded by the same method.  Any bytes decode to some positions.

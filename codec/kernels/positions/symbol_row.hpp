@@ -3,6 +3,7 @@
 // Reference: F. Giesen, "Models for adaptive arithmetic coding", 2015.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -18,7 +19,7 @@ namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
 // starts[i] of 2^15 is where symbol i begins; starts[0], always 0, holds the number of symbols seen instead.
-struct alignas(16) SymbolRow {
+struct alignas(32) SymbolRow {
     static constexpr int total_bits = 15, n_symbols = 16, total = 1 << total_bits;
     static constexpr int least_frequency = 8;
 
@@ -34,22 +35,32 @@ struct alignas(16) SymbolRow {
     }
 };
 
-// What symbols are coded with: a mean of rows.  Not adaptive.
-struct alignas(16) SymbolMix : SymbolRow {
+// What symbols are coded with: a mean of rows, as they are but for starts[0] = 0.  Not adaptive.
+struct alignas(32) SymbolMix {
+    static constexpr int total_bits = SymbolRow::total_bits;
+
+    std::array<uint16_t, SymbolRow::n_symbols + 1> starts;
+
+    SymbolMix() { starts[SymbolRow::n_symbols] = SymbolRow::total; }
+
     Share share(uint32_t symbol) const {
-        return {symbol == 0 ? uint16_t{0} : starts[symbol], static_cast<uint16_t>(frequency(symbol))};
+        return {starts[symbol], static_cast<uint16_t>(starts[symbol + 1] - starts[symbol])};
     }
 
     // The symbol that owns slot < 2^15.
     uint32_t find(uint32_t slot) const {
-#ifdef __SSE2__
+#if defined(EBZ_AVX2)
+        const __m256i row = _mm256_load_si256(reinterpret_cast<const __m256i*>(starts.data()));
+        const __m256i above = _mm256_cmpgt_epi16(row, _mm256_set1_epi16(static_cast<int16_t>(slot)));
+        return 15 - static_cast<uint32_t>(std::popcount(static_cast<uint32_t>(_mm256_movemask_epi8(above)))) / 2;
+#elif defined(__SSE2__)
         const auto* row = reinterpret_cast<const __m128i*>(starts.data());
         const __m128i at = _mm_set1_epi16(static_cast<int16_t>(slot));
         const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(_mm_load_si128(row), at), _mm_cmpgt_epi16(_mm_load_si128(row + 1), at));
-        return static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1u << n_symbols)) - 1;
+        return static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(_mm_movemask_epi8(above)) | 1u << SymbolRow::n_symbols)) - 1;
 #else
         uint32_t symbol = 0;
-        while (symbol + 1 < n_symbols && starts[symbol + 1] <= slot) ++symbol;
+        while (symbol + 1 < SymbolRow::n_symbols && starts[symbol + 1] <= slot) ++symbol;
         return symbol;
 #endif
     }
@@ -68,7 +79,7 @@ inline constexpr auto rates = [] {
 // A row that has seen nothing starts from the mix, 1 / 32 of the way to equal frequencies.
 inline constexpr int start_rate = 5;
 
-struct alignas(16) Target : std::array<int16_t, SymbolRow::n_symbols> {};
+struct alignas(32) Target : std::array<int16_t, SymbolRow::n_symbols> {};
 inline constexpr auto targets = [] {
     std::array<Target, SymbolRow::n_symbols> table{};
     for (size_t s = 0; s < table.size(); ++s)
@@ -109,13 +120,51 @@ SymbolMix mixed(const std::array<SymbolRow*, n_rows>& rows, const std::array<uin
     return mix;
 }
 
+inline SymbolMix mean(const std::array<SymbolRow*, 1>& rows) {
+    SymbolMix mix;
+    std::copy(rows[0]->starts.begin(), rows[0]->starts.end(), mix.starts.begin());
+    mix.starts[0] = 0;
+    return mix;
+}
+
+// Half of the last row, a quarter of either other; rounded up.
+inline SymbolMix mean(const std::array<SymbolRow*, 3>& rows) {
+    SymbolMix mix;
+#if defined(EBZ_AVX2)
+    const auto row = [&](size_t i) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(rows[i]->starts.data())); };
+    const __m256i all = _mm256_avg_epu16(row(2), _mm256_avg_epu16(row(0), row(1)));
+    const __m256i others = _mm256_set_epi16(-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 0);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(mix.starts.data()), _mm256_and_si256(all, others));
+#else
+    for (size_t k = 1; k < SymbolRow::n_symbols; ++k) {
+        const uint32_t side = (uint32_t{rows[0]->starts[k]} + rows[1]->starts[k] + 1) >> 1;
+        mix.starts[k] = static_cast<uint16_t>((rows[2]->starts[k] + side + 1) >> 1);
+    }
+    mix.starts[0] = 0;
+#endif
+    return mix;
+}
+
 // The row moves towards the symbol; rounding keeps each frequency at least_frequency or above.
 inline void learn(SymbolRow& row, const SymbolMix& mix, uint32_t symbol) {
     using namespace symbol_rows;
     const uint16_t n_seen = row.starts[0];
     const auto n_now = static_cast<uint16_t>(n_seen < max_seen ? n_seen + 1 : n_seen);
     const int rate = rates[n_seen];
-#ifdef __SSE2__
+#if defined(EBZ_AVX2)
+    auto* at = reinterpret_cast<__m256i*>(row.starts.data());
+    const __m256i target = _mm256_load_si256(reinterpret_cast<const __m256i*>(targets[symbol].data()));
+    __m256i old = _mm256_load_si256(at);
+    if (n_seen == 0) {
+        old = _mm256_load_si256(reinterpret_cast<const __m256i*>(mix.starts.data()));
+        const __m256i equal = _mm256_load_si256(reinterpret_cast<const __m256i*>(flat.starts.data()));
+        old = _mm256_add_epi16(old, _mm256_srai_epi16(_mm256_sub_epi16(equal, old), start_rate));
+    }
+    const __m256i moved = _mm256_add_epi16(old, _mm256_sra_epi16(_mm256_sub_epi16(target, old), _mm_cvtsi32_si128(rate)));
+    // Stored at once, as the next load of the row would wait for a part that is stored on its own.
+    const __m128i low = _mm_insert_epi16(_mm256_castsi256_si128(moved), n_now, 0);
+    _mm256_store_si256(at, _mm256_inserti128_si256(moved, low, 0));
+#elif defined(__SSE2__)
     auto* at = reinterpret_cast<__m128i*>(row.starts.data());
     const auto* target = reinterpret_cast<const __m128i*>(targets[symbol].data());
     const auto* start = reinterpret_cast<const __m128i*>(mix.starts.data());
@@ -136,7 +185,9 @@ inline void learn(SymbolRow& row, const SymbolMix& mix, uint32_t symbol) {
         row.starts[i] = static_cast<uint16_t>(old + ((targets[symbol][i] - old) >> rate));
     }
 #endif
+#if !defined(EBZ_AVX2)
     row.starts[0] = n_now;
+#endif
 }
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -1,0 +1,166 @@
+// The residual of a vertex as one symbol per axis, all three side by side, and plain digits.
+//
+// Symbols stand for 0 and, on either side of it, half-octaves of the residual under a shift; for the value of a
+// neighbour; and for what was expected exactly.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "../adaptive_symbol.hpp"
+#include "lanes.hpp"
+#include "residual_digits.hpp"
+#include "symbol_row.hpp"
+
+namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
+
+using UintLanes = uint32_t __attribute__((vector_size(16)));
+
+inline IntLanes as_ints(UintLanes x) { return reinterpret_cast<IntLanes>(x); }
+inline UintLanes as_uints(IntLanes x) { return reinterpret_cast<UintLanes>(x); }
+inline Lanes as_floats(UintLanes x) { return __builtin_convertvector(as_ints(x), Lanes); }
+inline Lanes magnitudes(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_cast<IntLanes>(x) & INT32_MAX); }
+inline Lanes clamp(Lanes x, float low, float high) { return min(max(x, splat<Lanes>(low)), splat<Lanes>(high)); }
+inline IntLanes truncated(Lanes x) { return __builtin_convertvector(x, IntLanes); }
+
+// Half-octaves of x + 1/8, x >= 0: 1 gives 6.
+inline IntLanes half_octaves(Lanes x) { return (reinterpret_cast<IntLanes>(x + 0.125f) >> 22) - 248; }
+
+class MediumModel {
+public:
+    // What is known about the residuals, per axis.
+    struct Circumstances {
+        Lanes scale;      // their likely size
+        Lanes spread;     // of what predicts them
+        Lanes drift;      // those of neighbours
+        Lanes fraction;   // the smooth prediction
+        UintLanes near;   // one that would repeat a neighbour's value
+        int32_t two;      // 1 if two faces predict, else 0
+    };
+
+    template <class Coder>
+    UintLanes code(Coder& coder, const Circumstances& known, UintLanes e) {
+        const Shifts shifts(known.scale);
+        const Lanes cell = reinterpret_cast<Lanes>((127 - shifts.by) << 23);  // 2^-shift
+        const Lanes pulled = known.drift * 3.0f / (known.scale + 0.125f);
+        const IntLanes near = truncated(clamp(as_floats(known.near) * cell, -7.0f, 7.0f) + 7.5f);
+        const IntLanes wide = half_octaves(known.spread) - 2 * shifts.by;
+        const IntLanes by_level = shifts.level << 4 | at_most_15(wide);
+        const IntLanes by_value = near << 4 | fifteenths(known.fraction * cell);
+        const IntLanes by_drift = known.two << 8 | shifts.level << 4 | fifteenths(pulled);
+        Rows<3> rows;
+        for (size_t d = 0; d < 3; ++d)
+            rows[d] = {&level_rows_[d][static_cast<size_t>(by_level[d])], &value_rows_[d][static_cast<size_t>(by_value[d])],
+                       &drift_rows_[d][static_cast<size_t>(by_drift[d])]};
+        return code(coder, rows, shifts, known.near, e);
+    }
+
+    // Where only the size of the residual before is known; kind: 0 or 1.
+    template <class Coder>
+    UintLanes code_step(Coder& coder, size_t kind, Lanes size, UintLanes e) {
+        const Shifts shifts(size);
+        Rows<1> rows;
+        for (size_t d = 0; d < 3; ++d) rows[d] = {&step_rows_[kind][d][static_cast<size_t>(shifts.level[d])]};
+        return code(coder, rows, shifts, UintLanes{}, e);
+    }
+
+private:
+    static constexpr uint32_t near_token = 0, zero_token = 7, base_token = 14;
+    static constexpr int top_level = 10, n_levels = top_level + 2;
+    static constexpr uint64_t escape_cell = 12;
+    // The first cell of each symbol and the digits that tell those of a symbol apart.
+    static constexpr std::array<int8_t, 16> first_cell = {0, -11, -7, -5, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8, 0, 0};
+    static constexpr std::array<uint8_t, 16> cell_digits = {0, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 2, 0, 0};
+
+    template <size_t n>
+    using Rows = std::array<std::array<SymbolRow*, n>, 3>;
+
+    // A cell is 2^by residuals; in cells a scale has a level below n_levels.
+    struct Shifts {
+        IntLanes by, level;
+
+        explicit Shifts(Lanes scale) {
+            const IntLanes octaves = half_octaves(scale), above = octaves - top_level;
+            by = (above & (above > 0)) >> 1;
+            level = octaves - 2 * by;
+        }
+    };
+
+    static IntLanes at_most_15(IntLanes x) {
+        const IntLanes positive = x & (x > 0), fits = positive < 15;
+        return (positive & fits) | (15 & ~fits);
+    }
+    static IntLanes fifteenths(Lanes x) { return truncated(clamp(x, -7.5f, 7.0f) + 7.5f); }
+
+    template <size_t n, class Coder>
+    UintLanes code(Coder& coder, const Rows<n>& rows, const Shifts& shifts, UintLanes near, UintLanes e) {
+        std::array<SymbolMix, 3> mixes;
+        std::array<uint32_t, 3> tokens;
+        for (size_t d = 0; d < 3; ++d) {
+            mixes[d] = mean(rows[d]);
+            if constexpr (Coder::encoding) tokens[d] = token(e[d], near[d], shifts.by[d]);
+        }
+        coder.symbols.fixed(mixes, tokens);
+        for (size_t d = 0; d < 3; ++d)
+            for (SymbolRow* row : rows[d]) learn(*row, mixes[d], tokens[d]);
+        for (size_t d = 0; d < 3; ++d) {
+            const int shift = shifts.by[d];
+            if (tokens[d] - 1 < base_token - 1) {
+                e[d] = code_cell(coder, tokens[d], shift, e[d]);
+            } else {
+                e[d] = tokens[d] == near_token ? near[d] : tokens[d] == base_token ? 0 : code_far(coder, d, shifts.level[d], shift, e[d]);
+            }
+        }
+        return e;
+    }
+
+    // The residual's cell is the nearest multiple of 2^shift.
+    static int64_t cell_of(uint32_t e, int shift) {
+        return (int64_t{static_cast<int32_t>(e)} + ((int64_t{1} << shift) >> 1)) >> shift;
+    }
+
+    static uint32_t token(uint32_t e, uint32_t near, int shift) {
+        if (e == 0 && shift > 0) return base_token;
+        const int64_t cell = cell_of(e, shift);
+        if (e == near && (shift > 0 || cell < -3 || cell > 3)) return near_token;
+        const uint32_t size = half_octave(magnitude(cell));
+        return size > 6 ? escape_token : cell < 0 ? zero_token - size : zero_token + size;
+    }
+
+    template <class Coder>
+    static uint32_t code_cell(Coder& coder, uint32_t token, int shift, uint32_t e) {
+        const uint32_t first = (static_cast<uint32_t>(int32_t{first_cell[token]}) << shift) - ((1u << shift) >> 1);
+        return first + static_cast<uint32_t>(coder.plain.bits(Coder::encoding ? e - first : 0, cell_digits[token] + shift));
+    }
+
+    template <class Coder>
+    uint32_t code_far(Coder& coder, size_t d, int32_t level, int shift, uint32_t e) {
+        const int64_t cell = cell_of(e, shift);
+        const uint64_t beyond = magnitude(cell) - escape_cell;
+        const uint32_t token = coder.symbols.symbol(d, far_[d][static_cast<size_t>(level)], residual_token(beyond, 0));
+        if (token == escape_token) {
+            const auto n = static_cast<int>(coder.plain.bits(static_cast<uint64_t>(std::bit_width(e)), 6));
+            return static_cast<uint32_t>(coder.plain.bits(e, std::min(n, 32)));
+        }
+        const bool negative = coder.plain.bits(cell < 0 ? 1 : 0, 1) != 0;
+        const int n = n_low_digits(token, 0);
+        const uint64_t half = (uint64_t{1} << shift) >> 1, mask = (uint64_t{1} << shift) - 1;
+        const uint64_t digits = (beyond & ((uint64_t{1} << n) - 1)) << shift | ((e + half) & mask);
+        const uint64_t low = coder.plain.bits(digits, n + shift);
+        const uint64_t above = (leading_digits(token) << n | low >> shift) + escape_cell;
+        return static_cast<uint32_t>(((negative ? 0 - above : above) << shift) + (low & mask) - half);
+    }
+
+    std::array<std::array<SymbolRow, 16 * n_levels>, 3> level_rows_;
+    std::array<std::array<SymbolRow, 16 * 15>, 3> value_rows_;
+    std::array<std::array<SymbolRow, 256 + 16 * n_levels>, 3> drift_rows_;
+    std::array<std::array<std::array<SymbolRow, n_levels>, 3>, 2> step_rows_;
+    std::array<std::array<AdaptiveSymbol<16>, n_levels>, 3> far_;
+};
+
+}  // namespace EBZ_INSTRUCTIONS
+}  // namespace ebz::positions

@@ -1,0 +1,96 @@
+"""Positions along any surface, whatever their values: every method for integers, and any bytes."""
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ebz.codec import _kernels
+from ebz.codec.connectivity import Surface, traverse
+from ebz.codec.positions import Method
+from tests.meshes import face_lists, rngs
+
+INTEGER_METHODS = (Method.FAST, Method.MEDIUM, Method.LIGHT, Method.STRONG)
+# Those of 32 bits, and the widest values that each of them codes.
+WIDEST = {
+    Method.FAST: 2**31 - 1,
+    Method.MEDIUM: 2**31 - 1,
+    Method.LIGHT: 2**40,
+    Method.STRONG: 2**40,
+}
+
+Values = npt.NDArray[np.int64]
+
+
+@st.composite
+def surfaces(draw: st.DrawFn) -> tuple[Surface, int]:
+    """Along any faces, and the number of vertices, some of them in no face."""
+    faces = draw(face_lists())
+    n_vertices = int(faces.max(initial=-1)) + 1 + draw(st.integers(0, 3))
+    return traverse(faces, n_vertices)[0], n_vertices
+
+
+@st.composite
+def values(draw: st.DrawFn, n: int, widest: int) -> Values:
+    """(3 n,) near each other, repeated, or as far apart as can be."""
+    rng = draw(rngs)
+    spread = draw(st.sampled_from([1, 2, 40, 3000, 10**6, widest]))
+    found = rng.integers(-spread, spread + 1, 3 * n)
+    if draw(st.booleans()):
+        found[rng.random(3 * n) < 0.3] = draw(st.sampled_from([-widest, 0, widest]))
+    return found
+
+
+def encode(surface: Surface, n: int, coordinates: Values, method: Method) -> bytes:
+    return _kernels.encode_positions(surface.opposite, surface.vertex, n, coordinates, method)
+
+
+def decode(data: bytes, surface: Surface, n: int, method: Method) -> Values:
+    stream = np.frombuffer(data, np.uint8)
+    return _kernels.decode_positions(stream, surface.opposite, surface.vertex, n, method)
+
+
+@settings(deadline=None)
+@given(surfaces(), st.sampled_from(INTEGER_METHODS), st.data())
+def test_any_integers_come_back_along_any_surface(along, method, data):
+    surface, n = along
+    coordinates = data.draw(values(n, WIDEST[method]))
+    stream = encode(surface, n, coordinates, method)
+    assert np.array_equal(decode(stream, surface, n, method), coordinates)
+
+
+@settings(deadline=None)
+@given(surfaces(), st.sampled_from(INTEGER_METHODS), st.data())
+def test_both_instruction_sets_write_the_same(along, method, data):
+    surface, n = along
+    coordinates = data.draw(values(n, WIDEST[method]))
+    stream = encode(surface, n, coordinates, method)
+    _kernels.forbid_extensions(True)
+    try:
+        assert encode(surface, n, coordinates, method) == stream
+        assert np.array_equal(decode(stream, surface, n, method), coordinates)
+    finally:
+        _kernels.forbid_extensions(False)
+
+
+@settings(deadline=None)
+@given(surfaces(), st.sampled_from(INTEGER_METHODS), st.binary(max_size=200))
+def test_any_bytes_decode_to_the_same_on_both_instruction_sets(along, method, data):
+    surface, n = along
+    coordinates = decode(data, surface, n, method)
+    assert len(coordinates) == 3 * n
+    _kernels.forbid_extensions(True)
+    try:
+        assert np.array_equal(decode(data, surface, n, method), coordinates)
+    finally:
+        _kernels.forbid_extensions(False)
+
+
+@pytest.mark.parametrize("method", [Method.FAST, Method.MEDIUM])
+@pytest.mark.parametrize("value", [2**31, -(2**31) - 1])
+def test_methods_of_32_bits_give_nothing_for_wider_values(method, value):
+    surface, _ = traverse(np.array([[0, 1, 2]]), 3)
+    coordinates = np.zeros(9, np.int64)
+    coordinates[4] = value
+    assert encode(surface, 3, coordinates, method) == b""
