@@ -194,10 +194,9 @@ private:
         uint32_t word;
         std::memcpy(&word, p, 4);
         if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap32(word);
-        const bool due = state < least;
-        const uint64_t filled = state << word_bits | word;
-        state = due ? filled : state;
-        at_ += due ? 4 : 0;
+        const uint64_t due = 0 - static_cast<uint64_t>(state < least);
+        state = state << (word_bits & due) | (word & due);
+        at_ += 4 & due;
         at_ = at_ < last_ ? at_ : last_;
     }
 

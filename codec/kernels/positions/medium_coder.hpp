@@ -60,7 +60,7 @@ private:
     // From the vertex before, without a parallelogram.
     void step_to(int32_t v, size_t kind) {
         MediumSite& site = sites_[v];
-        const UintLanes e = model_.code_step(coder_, kind, steps_[kind], site.at - latest_);
+        const UintLanes e = model_.code_step(coder_, kind, steps_[kind], residual(site, latest_));
         site = {latest_ + e, Lanes{}};
         latest_ = site.at;
         steps_[kind] = magnitudes(as_floats(e));
@@ -85,9 +85,10 @@ private:
         const Lanes drift = (a.residual + b.residual + c.residual + d.residual) * 0.25f;
 
         MediumSite& site = sites_[v];
-        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, g == h ? 0 : 1}, site.at - base);
-        site = {base + e, as_floats(e)};
-        const Lanes from_plain = magnitudes(as_floats(site.at - plain)), from_smooth = magnitudes(as_floats(site.at - first) - smooth);
+        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, g == h ? 0 : 1}, residual(site, base));
+        const UintLanes at = base + e;
+        site = {at, as_floats(e)};
+        const Lanes from_plain = magnitudes(as_floats(at - plain)), from_smooth = magnitudes(as_floats(at - first) - smooth);
         // Bit patterns are nearly logarithms.
         const IntLanes lead = reinterpret_cast<IntLanes>(from_plain + 1.0f) - reinterpret_cast<IntLanes>(from_smooth + 1.0f);
         lead_ += (__builtin_convertvector(lead, Lanes) - lead_) * 0.01f;
@@ -96,6 +97,12 @@ private:
     const MediumSite& start(int32_t gate) const { return sites_[vertex_[gate]]; }
     const MediumSite& end(int32_t gate) const { return sites_[vertex_[next(gate)]]; }
     const MediumSite& apex(int32_t gate) const { return sites_[vertex_[previous(opposite_[gate])]]; }
+
+    // Sites to be decoded hold nothing yet.
+    static UintLanes residual(const MediumSite& site, UintLanes base) {
+        if constexpr (Coder::encoding) return site.at - base;
+        else return UintLanes{};
+    }
 
     static UintLanes choose(IntLanes mask, UintLanes x, UintLanes y) { return (x & as_uints(mask)) | (y & ~as_uints(mask)); }
 

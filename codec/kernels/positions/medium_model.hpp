@@ -107,15 +107,16 @@ private:
         coder.symbols.fixed(mixes, tokens);
         for (size_t d = 0; d < 3; ++d)
             for (SymbolRow* row : rows[d]) learn(*row, mixes[d], tokens[d]);
-        for (size_t d = 0; d < 3; ++d) {
-            const int shift = shifts.by[d];
-            if (tokens[d] - 1 < base_token - 1) {
-                e[d] = code_cell(coder, tokens[d], shift, e[d]);
-            } else {
-                e[d] = tokens[d] == near_token ? near[d] : tokens[d] == base_token ? 0 : code_far(coder, d, shifts.level[d], shift, e[d]);
-            }
-        }
-        return e;
+        const uint32_t x = code_rest(coder, 0, tokens[0], shifts, near, e), y = code_rest(coder, 1, tokens[1], shifts, near, e);
+        return UintLanes{x, y, code_rest(coder, 2, tokens[2], shifts, near, e), 0};
+    }
+
+    // What the symbol leaves.
+    template <class Coder>
+    uint32_t code_rest(Coder& coder, size_t d, uint32_t token, const Shifts& shifts, UintLanes near, UintLanes e) {
+        if (token - 1 < base_token - 1) return code_cell(coder, token, shifts.by[d], e[d]);
+        if (token == near_token) return near[d];
+        return token == base_token ? 0 : code_far(coder, d, shifts.level[d], shifts.by[d], e[d]);
     }
 
     // The residual's cell is the nearest multiple of 2^shift.

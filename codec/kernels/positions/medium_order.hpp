@@ -44,6 +44,10 @@ public:
             Queue& queue = second_.empty() ? first_ : second_;
             if (queue.empty()) return -1;
             const int32_t h = queue.items[queue.begin++];
+            if (queue.begin + ahead < queue.end) {
+                __builtin_prefetch(opposite_ + queue.items[queue.begin + ahead]);
+                __builtin_prefetch(vertex_ + queue.items[queue.begin + ahead]);
+            }
             if (visited(h / 3)) continue;
             if (!known(vertex_[previous(h)])) return h;
             visit_from(h);
@@ -52,6 +56,7 @@ public:
 
 private:
     static constexpr uint8_t is_met = 1, is_known = 2;
+    static constexpr size_t ahead = 8;  // gates that are prefetched
 
     // Each half-edge enters one of them, once.
     struct Queue {

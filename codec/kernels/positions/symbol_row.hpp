@@ -149,7 +149,7 @@ inline SymbolMix mean(const std::array<SymbolRow*, 3>& rows) {
 inline void learn(SymbolRow& row, const SymbolMix& mix, uint32_t symbol) {
     using namespace symbol_rows;
     const uint16_t n_seen = row.starts[0];
-    const auto n_now = static_cast<uint16_t>(n_seen < max_seen ? n_seen + 1 : n_seen);
+    const auto n_now = static_cast<uint16_t>(n_seen + (n_seen < max_seen));
     const int rate = rates[n_seen];
 #if defined(EBZ_AVX2)
     auto* at = reinterpret_cast<__m256i*>(row.starts.data());
