@@ -17,7 +17,7 @@ class MatchModel {
 public:
     // A context of n_context symbols (at most 21) is looked up.
     explicit MatchModel(int n_context, Index n_symbols)
-        : n_context_(n_context), n_symbols_(n_symbols), latest_(size_t{1} << n_bits, none) {}
+        : n_context_(n_context), n_symbols_(n_symbols), latest_(size_t{1} << n_bits) {}
 
     static constexpr uint32_t no_symbol = n_symbols;
 
@@ -36,9 +36,11 @@ public:
             length_ = 0;
         }
         const uint64_t key = recent & ((uint64_t{1} << (3 * n_context_)) - 1);
-        Index& latest = latest_[(key * 0x9E3779B97F4A7C15u) >> (64 - n_bits)];
-        if (length_ == 0 && latest != none) start(symbols, position, latest);
-        latest = position - 1;
+        const uint64_t hash = key * 0x9E3779B97F4A7C15u;
+        Place& latest = latest_[hash >> (64 - n_bits)];
+        const auto check = static_cast<uint32_t>(hash >> (32 - n_bits));
+        if (length_ == 0 && latest.check == check) start(symbols, position, latest.after);
+        latest = {position - 1, check};
         // A match that ran into the present has no symbol to offer yet.
         predicted_ = length_ > 0 ? symbols[at_] : n_symbols;
         confidence_ = length_ > 0 ? confidence_of(length_) : 0;
@@ -47,7 +49,13 @@ public:
 private:
     static constexpr int n_bits = 14, max_length = 512, max_start = 32;
 
+    struct Place {
+        Index after = none;  // the position after the context
+        uint32_t check = 0;  // further bits of its hash
+    };
+
     void start(std::span<const uint8_t> symbols, Index position, Index after) {
+        if (after == none) return;
         at_ = after;
         while (length_ < max_start && at_ + 1 + length_ < n_symbols_ &&
                symbols[at_ + 1 + length_] == symbols[position + length_]) {
@@ -65,7 +73,7 @@ private:
 
     int n_context_;
     Index n_symbols_;
-    std::vector<Index> latest_;  // by hash of the context, the position after it
+    std::vector<Place> latest_;  // by hash of the context
     Index at_ = none;            // of the symbol predicted
     int length_ = 0;
     uint32_t predicted_ = no_symbol, confidence_ = 0;

@@ -22,7 +22,7 @@ public:
           near_(12, n_symbols),
           tables_(n, std::clamp<int>(std::bit_width(static_cast<uint32_t>(n_symbols)) - 2, 10, Contexts::n_table_bits)),
           by_known_(n_decisions * (n + 1)),
-          by_symbols_(n_decisions * 128),
+          by_symbols_(thorough ? n_decisions * 128 : 0),
           by_match_(thorough ? n_decisions * 512 : 0),
           by_degrees_(thorough ? n_decisions * 256 : 0),
           by_loop_(thorough ? n_decisions * 256 : 0) {
@@ -61,7 +61,7 @@ private:
         const MixingPrior<n>& prior = Contexts::prior;
         for (size_t d = 0; d < n_decisions; ++d) {
             for (size_t k = 0; k <= n; ++k) by_known_.start(d * (n + 1) + k, prior.by_known[d][k]);
-            for (size_t k = 0; k < 128; ++k) by_symbols_.start(d * 128 + k, prior.weights[d]);
+            for (size_t k = 0; thorough && k < 128; ++k) by_symbols_.start(d * 128 + k, prior.weights[d]);
             for (size_t k = 0; thorough && k < 512; ++k) by_match_.start(d * 512 + k, prior.weights[d]);
         }
     }
@@ -101,36 +101,34 @@ private:
             inputs[i] = static_cast<int16_t>(stretch(evidence_[i]->estimates[slot(decision)].p12()));
         }
         auto& by_known = by_known_.at(decision * (n + 1) + n_known_);
-        auto& by_symbols = by_symbols_.at(decision * 128 + (view.l0 << 3 | history_.latest(1)));
-        const int a = by_known.mix(inputs), b = by_symbols.mix(inputs);
-        int mixed = a + b;
-        typename Mixer<n>::Set* by_match = nullptr;
-        int c = 0;
+        const int mixed = by_known.mix(inputs);
         if constexpr (thorough) {
-            const uint32_t matches = far_.confidence() << 3 | near_.confidence();
-            by_match = &by_match_.at(decision * 512 + (matches << 3 | std::min(history_.since_close(), 7u)));
-            c = by_match->mix(inputs);
-            mixed = (mixed + c) / 3;
+            bit = decide_thoroughly(coder, decision, bit, view, inputs, mixed);
         } else {
-            mixed /= 2;
+            bit = coder.bit(bit, bounded(squash(mixed)));
         }
-        const int p = squash(mixed);
-        int refined = p;
-        if constexpr (thorough) {
-            const uint32_t degrees = pack(view.l0, view.l1);
-            const uint32_t loop = pack(std::min(view.length, 15u), view.conflict);
-            refined = (2 * p + by_degrees_.refine(decision * 256 + degrees, mixed) +
-                       by_loop_.refine(decision * 256 + loop, mixed)) / 4;
-        }
-        bit = coder.bit(bit, bounded(refined));
-        by_known.learn(inputs, a, bit);
-        by_symbols.learn(inputs, b, bit);
-        if constexpr (thorough) {
-            by_match->learn(inputs, c, bit);
-            by_degrees_.learn(bit);
-            by_loop_.learn(bit);
-        }
+        by_known.learn(inputs, mixed, bit);
         for (int i = 0; i < n; ++i) evidence_[i]->estimates[slot(decision)].learn(bit);
+        return bit;
+    }
+
+    // by_known: what the mixer says that selects by what is known.
+    template <class Coder>
+    bool decide_thoroughly(Coder& coder, int decision, bool bit, const WordView& view,
+                           const typename Mixer<n>::Vector& inputs, int by_known) {
+        const uint32_t matches = far_.confidence() << 3 | near_.confidence();
+        auto& by_symbols = by_symbols_.at(decision * 128 + (view.l0 << 3 | history_.latest(1)));
+        auto& by_match = by_match_.at(decision * 512 + (matches << 3 | std::min(history_.since_close(), 7u)));
+        const int b = by_symbols.mix(inputs), c = by_match.mix(inputs), mixed = (by_known + b + c) / 3;
+        const uint32_t degrees = pack(view.l0, view.l1);
+        const uint32_t loop = pack(std::min(view.length, 15u), view.conflict);
+        const int refined = (2 * squash(mixed) + by_degrees_.refine(decision * 256 + degrees, mixed) +
+                             by_loop_.refine(decision * 256 + loop, mixed)) / 4;
+        bit = coder.bit(bit, bounded(refined));
+        by_symbols.learn(inputs, b, bit);
+        by_match.learn(inputs, c, bit);
+        by_degrees_.learn(bit);
+        by_loop_.learn(bit);
         return bit;
     }
 

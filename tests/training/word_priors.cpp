@@ -155,6 +155,7 @@ struct Training {
     // Of the sets that were used: the others are where they started.
     template <int n>
     static std::array<int16_t, n> mean(const Mixer<n>& mixer, int first, int n_sets) {
+        if (mixer.sets_.empty()) return {};  // the model does without
         std::array<double, n> sum{};
         double n_uses = 0;
         for (int s = first; s < first + n_sets; ++s) {
