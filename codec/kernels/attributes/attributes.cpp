@@ -17,7 +17,7 @@ template <class Walk, class S, class Coder>
 void code_numbers(Coder& coder, const Items& items, const Coding& coding, std::span<int64_t> values) {
     Walk walk(items);
     Neighbourhood around;
-    Predictor<S> predictor(items, coding, values);
+    Predictor<S> predictor(items, coding, values, walk.corners());
     const auto model = std::make_unique<NumberModel>(values.size());
     Expectation x;
     for (int32_t v; (v = walk.next()) >= 0;) {

@@ -44,6 +44,7 @@ struct Coding {
     Space space;
     Relation relation;
     double total;
+    bool by_area;  // of guesses that are normals: the weights of the faces around
 };
 
 // values: n_components per item; of symbols 0 to 2^16 - 1.

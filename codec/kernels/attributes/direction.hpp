@@ -1,7 +1,6 @@
 // Unit vectors near a guess: how errors across the sphere spread over components that are coded in turn.
 //
-// An error perpendicular to the guess n, alike in all directions, has the covariance I - n n^T; the second
-// component is expected to follow the first by their covariance.
+// The second component is expected to follow the first by their covariance.
 #pragma once
 
 #include <algorithm>
@@ -9,53 +8,68 @@
 #include <cmath>
 #include <cstddef>
 
+#include "octahedron.hpp"
+
 namespace ebz::attributes {
+
+// How a unit vector varies in the plane that touches the sphere there.
+struct Variation {
+    Vector3 first{}, second{};  // axes of the plane
+    double xx = 1, xy = 0, yy = 1;
+
+    // Alike in all directions; zero axes where there is no normal.
+    static Variation about(const Vector3& normal) {
+        size_t least = 0;
+        for (size_t d = 1; d < 3; ++d)
+            if (std::abs(normal[d]) < std::abs(normal[least])) least = d;
+        Vector3 axis{};
+        axis[least] = 1;
+        const Vector3 first = unit(cross(normal, axis));
+        return {first, cross(normal, first)};
+    }
+
+    // What rounding to the integers of linear functions u and v adds.
+    static Variation of_lattice(const Vector3& normal, const Vector3& u, const Vector3& v) {
+        Variation result = about(normal);
+        const double ux = dot(u, result.first), uy = dot(u, result.second), vx = dot(v, result.first), vy = dot(v, result.second);
+        const double determinant = ux * vy - uy * vx, square = 12 * determinant * determinant;
+        if (!(square > 0)) return result;
+        result.xx = (vy * vy + uy * uy) / square;
+        result.xy = -(vx * vy + ux * uy) / square;
+        result.yy = (vx * vx + ux * ux) / square;
+        return result;
+    }
+
+    // The covariance of two linear functions of the vector.
+    double covariance(const Vector3& f, const Vector3& g) const {
+        const double fx = dot(f, first), fy = dot(f, second), gx = dot(g, first), gy = dot(g, second);
+        return xx * fx * gx + xy * (fx * gy + fy * gx) + yy * fy * gy;
+    }
+};
 
 struct Direction {
     double slope = 0;  // of the second component's error over the first's
     std::array<double, 2> spread = {1, 1};  // of the first, and of the second given the first
 
-    // Components of a vector by turns.
-    static Direction of_vector(const std::array<double, 3>& guess) {
-        const double square = guess[0] * guess[0] + guess[1] * guess[1] + guess[2] * guess[2];
-        if (!(square > 1e-200 && square < 1e200)) return {};
-        const double length = std::sqrt(square), a = guess[0] / length, b = guess[1] / length;
-        return of_rows({1 - a * a, 1 - b * b, -a * b});
+    // Components of a vector of length `total`: the first two that are coded.
+    static Direction of_vector(const Variation& v, size_t first, size_t second, double total) {
+        Vector3 f{}, g{};
+        f[first] = total;
+        g[second] = total;
+        return of_rows(v, f, g);
     }
 
-    // Points of the unfolded octahedron, in units of `half`, its centre.
-    static Direction of_octahedron(double u, double v, double half) {
-        double x = u / half - 1, y = v / half - 1;
-        const double z = 1 - std::abs(x) - std::abs(y);
-        const bool below = z < 0;
-        const double sx = x < 0 ? -1 : 1, sy = y < 0 ? -1 : 1, sz = below ? -1 : 1;
-        if (below) {
-            x += sx * z;
-            y += sy * z;
-        }
-        // Rows of the derivative of x and y of the point where a vector meets the octahedron.
-        const std::array<double, 3> to_x = {1 - x * sx, -x * sy, -x * sz}, to_y = {-y * sx, 1 - y * sy, -y * sz};
-        const double square = x * x + y * y + z * z;
-        const double xx = dot(to_x, to_x), yy = dot(to_y, to_y), xy = dot(to_x, to_y);
-        // Below, u follows y and v follows x.
-        return of_rows(below ? Covariance{square * yy, square * xx, square * xy}
-                             : Covariance{square * xx, square * yy, square * xy});
+    static Direction of_octahedron(const Variation& variation, const OctahedronRows& rows) {
+        return of_rows(variation, rows.u, rows.v);
     }
 
 private:
-    struct Covariance {
-        double first, second, both;
-    };
-
-    static double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
-    static Direction of_rows(const Covariance& c) {
-        constexpr double least = 1e-4;
-        const double first = std::max(c.first, least);
-        const double rest = std::max(c.second - c.both * c.both / first, least);
-        return {c.both / first, {std::sqrt(first), std::sqrt(rest)}};
+    static Direction of_rows(const Variation& variation, const Vector3& f, const Vector3& g) {
+        const double ff = variation.covariance(f, f), gg = variation.covariance(g, g), fg = variation.covariance(f, g);
+        if (!(ff + gg > 0)) return {};
+        const double least = 1e-4 * (ff + gg), first = std::max(ff, least);
+        const double rest = std::max(gg - fg * fg / first, least);
+        return {fg / first, {std::sqrt(first), std::sqrt(rest)}};
     }
 };
 

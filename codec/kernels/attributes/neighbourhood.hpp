@@ -44,6 +44,8 @@ public:
 
     int32_t next() { return traversal_.next_vertex(); }
 
+    const positions::CornersOfVertices* corners() const { return &corners_; }
+
     void surround(int32_t v, Neighbourhood& out) {
         out.clear();
         for (const int32_t c : corners_[v]) {
@@ -81,6 +83,8 @@ public:
 
     int32_t next() { return at_ + 1 < items_.n ? ++at_ : -1; }
 
+    const positions::CornersOfVertices* corners() const { return nullptr; }
+
     void surround(int32_t f, Neighbourhood& out) {
         out.clear();
         for (int32_t i = 0; i < 3; ++i) add_earlier(3 * f + i, f, out);
@@ -106,6 +110,8 @@ public:
     explicit RowWalk(const Items& items) : n_(items.n) {}
 
     int32_t next() { return at_ + 1 < n_ ? ++at_ : -1; }
+
+    const positions::CornersOfVertices* corners() const { return nullptr; }
 
     void surround(int32_t row, Neighbourhood& out) {
         out.clear();

@@ -13,8 +13,8 @@
 #include "../positions/least_squares.hpp"
 #include "../positions/wrapping.hpp"
 #include "attributes.hpp"
-#include "direction.hpp"
 #include "neighbourhood.hpp"
+#include "normal_guess.hpp"
 #include "number_model.hpp"
 #include "texture_map.hpp"
 
@@ -26,13 +26,16 @@ using positions::wrapping_sum;
 template <class S>
 class Predictor {
 public:
-    Predictor(const Items& items, const Coding& coding, std::span<const int64_t> values)
+    // corners: none where items are no vertices.
+    Predictor(const Items& items, const Coding& coding, std::span<const int64_t> values,
+              const positions::CornersOfVertices* corners)
         : items_(items),
           coding_(coding),
           values_(values),
           size_(values.size(), -1.0f),
           latest_(n_sites(items), -1),
-          turns_(std::min(items.n_components, max_turns)) {}
+          turns_(std::min(items.n_components, max_turns)),
+          guess_(items, coding, values, corners) {}
 
     // The item under way.
     void begin(int32_t v, const Neighbourhood& around) {
@@ -41,8 +44,8 @@ public:
         near_ = around.n_neighbours > 0 ? around.neighbours[0] : last_;
         second_ = around.n_neighbours > 1 ? around.neighbours[1] : before_last_;
         twin_ = items_.site.empty() ? -1 : latest_[static_cast<size_t>(items_.site[static_cast<size_t>(v)])];
-        map_ = items_.n_components == 2 && !items_.points.empty() ? texture_.predict(items_, v, around, values_, S::value)
-                                                                   : TextureMap::Guess{};
+        map_ = is_texture() ? texture_.predict(items_, v, around, values_, S::value) : TextureMap::Guess{};
+        guess_.begin(v);
         order_components();
         direct();
     }
@@ -90,7 +93,8 @@ public:
 
     void end() {
         if (!items_.site.empty()) latest_[static_cast<size_t>(items_.site[static_cast<size_t>(item_)])] = item_;
-        if (items_.n_components == 2 && !items_.points.empty()) texture_.learn(items_, item_, *around_, values_, S::value);
+        if (is_texture()) texture_.learn(items_, item_, *around_, values_, S::value);
+        if (twin_ < 0) guess_.end(item_);
         before_last_ = last_;
         last_ = item_;
     }
@@ -152,8 +156,10 @@ private:
         gather_parallelograms(c);
         if (near_ >= 0) put_value(near, integer(near_, c));
         if (second_ >= 0) put_value(second, integer(second_, c));
-        if (last_ >= 0 && last_ != near_) put_value(last, integer(last_, c));
         gather_special(c, turn);
+        const bool tells_twin = twin_ >= 0 && directed_ && turn > 0;
+        if (tells_twin) put_value(last, integer(twin_, c));
+        else if (last_ >= 0 && last_ != near_) put_value(last, integer(last_, c));
     }
 
     void gather_parallelograms(size_t c) {
@@ -178,7 +184,7 @@ private:
         spread_ = 1;
         is_implied_ = false;
         const bool is_row = items_.opposite.empty() && items_.item.empty();
-        if (!items_.guess.empty()) put(guess, items_.guess[at(item_, c)]);
+        if (guess_.is_there()) put(guess, guess_(item_, c));
         else if (is_row && turn > 0) put_value(guess, integer(item_, component(turn - 1)));
         else if (is_row && last_ >= 0) put_value(guess, integer(last_, items_.n_components - 1));
         if (map_.is_there) put(implied, map_.value[c]);
@@ -213,20 +219,21 @@ private:
         if (!ordered_) return;
         std::array<double, 3> size{};
         for (size_t c = 0; c < 3; ++c) {
-            if (!items_.guess.empty()) size[c] = std::abs(items_.guess[at(item_, c)]);
+            if (guess_.is_there()) size[c] = std::abs(guess_(item_, c));
             else if (near_ >= 0) size[c] = std::abs(value(near_, c));
         }
         order_ = {0, 1, 2};
         std::stable_sort(order_.begin(), order_.end(), [&](size_t a, size_t b) { return size[a] < size[b]; });
     }
 
+    bool is_texture() const {
+        return items_.n_components == 2 && !items_.points.empty() && coding_.relation != Relation::octahedral;
+    }
+
     // What errors of the guess will be like.
     void direct() {
-        directed_ = !items_.guess.empty() && (coding_.relation == Relation::octahedral || ordered_);
-        if (!directed_) return;
-        const auto at_turn = [&](size_t turn) { return items_.guess[at(item_, component(turn))]; };
-        direction_ = ordered_ ? Direction::of_vector({at_turn(0), at_turn(1), at_turn(2)})
-                              : Direction::of_octahedron(at_turn(0), at_turn(1), coding_.total);
+        directed_ = guess_.are_directions();
+        if (directed_) direction_ = guess_.direction(item_, component(0), component(1));
     }
 
     // How far the guesses around were off: what spoils one often spoils its neighbour's.
@@ -234,14 +241,14 @@ private:
         double sum = 0;
         for (size_t i = 0; i < around_->n_neighbours; ++i) {
             const int32_t u = around_->neighbours[i];
-            sum += value(u, c) - items_.guess[at(u, c)];
+            sum += value(u, c) - guess_(u, c);
         }
         return around_->n_neighbours > 0 ? sum / static_cast<double>(around_->n_neighbours) : 0.0;
     }
 
     void set_features(size_t turn) {
         const auto difference = [&](size_t k) { return (is_there_ >> k & 1) != 0 ? expected_[k] - mean_ : 0.0; };
-        const double third = items_.guess.empty() ? difference(second) : guess_error_around(component(turn));
+        const double third = guess_.is_there() ? guess_error_around(component(turn)) : difference(second);
         features_ = {difference(parallelogram), difference(near), third, difference(guess), difference(implied)};
         for (size_t back = 1; back <= 3 && back <= turn; ++back) features_[4 + back] = deviation_[(turn - back) % kept];
         for (size_t back = 1; back <= 3 && back <= turn; ++back) features_[7 + back] = steepness_[(turn - back) % kept];
@@ -333,6 +340,7 @@ private:
     std::vector<int32_t> latest_;  // item of each site
     std::vector<Turn> turns_;
     TextureMap texture_;
+    NormalGuess<S> guess_;
     int32_t last_ = -1, before_last_ = -1;
 
     // The item under way.
