@@ -2,10 +2,13 @@
 
 import os
 import sys
+from concurrent.futures import ThreadPoolExecutor
+from itertools import chain
 from pathlib import Path
 
 import nanobind
 from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
 
 KERNELS = Path("codec/kernels")
 NANOBIND = Path(nanobind.__file__).parent
@@ -15,7 +18,24 @@ sources = sorted(str(path) for path in KERNELS.rglob("*.cpp"))
 nanobind_source = os.path.relpath(NANOBIND / "src" / "nb_combined.cpp")
 link_args = [] if sys.platform == "darwin" else ["-Wl,-s"]
 
+
+class ParallelBuild(build_ext):
+    """Compiles the sources of an extension side by side; setuptools does so for extensions only."""
+
+    def build_extensions(self):
+        compile_in_turn = self.compiler.compile
+
+        def compile_sources(sources, **options):
+            with ThreadPoolExecutor(os.cpu_count()) as pool:
+                objects = pool.map(lambda source: compile_in_turn([source], **options), sources)
+                return list(chain.from_iterable(objects))
+
+        self.compiler.compile = compile_sources
+        super().build_extensions()
+
+
 setup(
+    cmdclass={"build_ext": ParallelBuild},
     ext_modules=[
         Extension(
             "ebz.codec._kernels",
@@ -36,5 +56,5 @@ setup(
             ],
             extra_link_args=link_args,
         )
-    ]
+    ],
 )
