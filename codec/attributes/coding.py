@@ -124,7 +124,7 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
     if plan.guess != Guess.NONE and not plan.n_labels:
         guess = guesses.positions(plan, items)
     is_flat = width == 2 and not plan.n_labels and plan.relation != Relation.OCTAHEDRAL
-    points = items.points.reshape(-1) if is_flat or len(guess) else np.zeros(0)
+    points = items.points.reshape(-1) if is_flat or Guess.HEIGHTS in plan.guess else np.zeros(0)
     return {
         "opposite": items.opposite,
         "item": items.item,
@@ -137,5 +137,6 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
         "space": space,
         "relation": plan.relation,
         "total": plan.total,
+        "heights": Guess.HEIGHTS in plan.guess,
         "by_area": Guess.AREA in plan.guess,
     }

@@ -17,6 +17,8 @@ Vectors = npt.NDArray[np.float64]
 WEIGHTS = (Guess.NONE, Guess.AREA, Guess.ANGLE)
 # Where nothing says that entries are directions, a guess must be this good to be one.
 CONVINCING = 0.3
+# Closer to their entries in the middle, guesses do not suffer from positions that were rounded.
+LEAST_ERROR = 1e-5
 # Halvings before the series of the arc tangent: its argument is below 0.2 then.
 HALVINGS, TERMS = 3, 12
 
@@ -35,7 +37,16 @@ def best(plan: Plan, values: npt.NDArray[Any], items: Items) -> Guess:
             normals = _normals(guess, items)
             errors[guess] = np.abs(wide - normals).mean()
             errors[guess | Guess.INVERTED] = np.abs(wide + normals).mean()
-    return min(errors, key=lambda guess: errors[guess])
+    guess = min(errors, key=lambda guess: errors[guess])
+    if is_direction and items.is_by_corner and _is_off(guess, wide, items):
+        guess |= Guess.HEIGHTS
+    return guess
+
+
+def _is_off(guess: Guess, entries: Vectors, items: Items) -> bool:
+    normals = _normals(guess, items)
+    normals = -normals if Guess.INVERTED in guess else normals
+    return bool(np.median(np.abs(entries - normals).max(axis=1)) > LEAST_ERROR)
 
 
 @np.errstate(all="ignore")

@@ -25,10 +25,11 @@ class Relation(enum.IntEnum):
     OCTAHEDRAL = 3
 
 
-class Guess(enum.IntFlag):
+class Guess(enum.IntFlag, boundary=enum.STRICT):
     """Normals as means of those of the faces around: equal weights, by area or by angle.
 
     INVERTED: of the other side.  SUM: with the length that sums with such weights have.
+    HEIGHTS: corrected by how far vertices seem to lie above or below where they were.
     """
 
     NONE = 0
@@ -37,6 +38,7 @@ class Guess(enum.IntFlag):
     ANGLE = 4
     INVERTED = 8
     SUM = 16
+    HEIGHTS = 32
 
 
 @dataclass(frozen=True)

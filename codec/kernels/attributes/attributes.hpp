@@ -44,7 +44,8 @@ struct Coding {
     Space space;
     Relation relation;
     double total;
-    bool by_area;  // of guesses that are normals: the weights of the faces around
+    bool heights;  // guesses are normals of vertices that lie above or below where they were
+    bool by_area;  // the weights of the faces around
 };
 
 // values: n_components per item; of symbols 0 to 2^16 - 1.

@@ -26,7 +26,7 @@ public:
           values_(values),
           guess_(items.guess.begin(), items.guess.end()),
           are_directions_(!guess_.empty() && (is_octahedral() || coding.relation == Relation::unit)) {
-        if (are_directions_ && corners != nullptr) errors_.emplace(items, coding.by_area, *corners);
+        if (coding.heights && are_directions_ && corners != nullptr) errors_.emplace(items, coding.by_area, *corners);
     }
 
     bool is_there() const { return !guess_.empty(); }
