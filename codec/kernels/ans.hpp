@@ -37,12 +37,6 @@ public:
         return symbol;
     }
 
-    // One symbol in each lane.
-    template <int n>
-    void symbols(const std::array<AdaptiveSymbol<n>*, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
-        for (size_t lane = 0; lane < n_lanes; ++lane) symbol(lane, *models[lane], symbols[lane]);
-    }
-
     // Of a model that is not to learn.
     template <class Model>
     uint32_t fixed(size_t lane, const Model& model, uint32_t symbol) {
@@ -123,25 +117,23 @@ public:
 
     template <int n>
     uint32_t symbol(size_t lane, AdaptiveSymbol<n>& model, uint32_t) {
-        uint64_t& state = states_[lane];
-        const auto slot = static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
-        const uint32_t symbol = model.find(slot);
-        const Share share = model.share(symbol);
-        state = share.frequency * (state >> model.total_bits) + slot - share.start;
-        refill(state);
+        const uint32_t symbol = step(states_[lane], model);
         model.learn(symbol);
         return symbol;
     }
 
-    template <int n>
-    void symbols(const std::array<AdaptiveSymbol<n>*, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
-        side_by_side([&](size_t lane) -> const AdaptiveSymbol<n>& { return *models[lane]; }, symbols);
-        for (size_t lane = 0; lane < n_lanes; ++lane) models[lane]->learn(symbols[lane]);
-    }
-
     template <class Model>
     void fixed(const std::array<Model, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
-        side_by_side([&](size_t lane) -> const Model& { return models[lane]; }, symbols);
+        std::array<uint64_t, n_lanes> states = states_;  // held in registers
+        for (size_t lane = 0; lane < n_lanes; ++lane) {
+            const Model& model = models[lane];
+            const auto slot = static_cast<uint32_t>(states[lane]) & ((1u << model.total_bits) - 1);
+            symbols[lane] = model.find(slot);
+            const Share share = model.share(symbols[lane]);
+            states[lane] = share.frequency * (states[lane] >> model.total_bits) + slot - share.start;
+        }
+        for (uint64_t& state : states) refill(state);
+        states_ = states;
     }
 
     template <class Model>
@@ -173,19 +165,14 @@ public:
     }
 
 private:
-    // States are held in registers.
-    template <class ModelOf>
-    void side_by_side(ModelOf model_of, std::array<uint32_t, n_lanes>& symbols) {
-        std::array<uint64_t, n_lanes> states = states_;
-        for (size_t lane = 0; lane < n_lanes; ++lane) {
-            const auto& model = model_of(lane);
-            const auto slot = static_cast<uint32_t>(states[lane]) & ((1u << model.total_bits) - 1);
-            symbols[lane] = model.find(slot);
-            const Share share = model.share(symbols[lane]);
-            states[lane] = share.frequency * (states[lane] >> model.total_bits) + slot - share.start;
-        }
-        for (uint64_t& state : states) refill(state);
-        states_ = states;
+    template <class Model>
+    uint32_t step(uint64_t& state, const Model& model) {
+        const auto slot = static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
+        const uint32_t symbol = model.find(slot);
+        const uint64_t start = model.start(symbol), end = model.start(symbol + 1);
+        state = (end - start) * (state >> model.total_bits) + slot - start;
+        if (state < least) [[unlikely]] refill(state);  // a symbol takes few bits, and then it can be foreseen
+        return symbol;
     }
 
     // Without a branch: whether a word is due is as good as random.

@@ -23,6 +23,47 @@
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
+// A number below 2^8 for each axis, the first lowest.
+using Sizes = uint32_t;
+
+inline uint32_t size_of(Sizes sizes, size_t d) { return sizes >> (8 * d) & 0xff; }
+
+// Of each axis, halves upwards.
+inline Sizes mean(Sizes a, Sizes b) { return (a | b) - ((a ^ b) >> 1 & 0x7f7f7f); }
+
+// What a token tells of a residual: the magnitude is at least `least`, the sign and more are in n_bits digits.
+struct Meaning {
+    uint32_t least;
+    uint8_t n_bits;
+    uint8_t size;  // about the half-octave: the next vertex does not wait for the digits
+    bool is_escape;
+
+    constexpr Meaning() : least(0), n_bits(0), size(0), is_escape(false) {}
+    constexpr Meaning(uint32_t token, int shift) {
+        const int n = n_low_digits(token, shift);
+        const auto h = static_cast<uint32_t>(shift);
+        least = static_cast<uint32_t>(leading_digits(token) << n);
+        n_bits = static_cast<uint8_t>(n + (token + h != 0));
+        size = static_cast<uint8_t>(token == 0 ? h : token + 2 * h);
+        is_escape = token == escape_token;
+    }
+
+    // The sign is the lowest digit.
+    uint64_t digits(int32_t e) const { return (static_cast<uint64_t>(magnitude(e)) << 1 | (e < 0)) & ((uint64_t{1} << n_bits) - 1); }
+    int32_t residual(uint64_t digits) const { return static_cast<int32_t>(with_sign(least + (digits >> 1), digits & 1)); }
+};
+
+inline constexpr uint32_t n_expected = 32;  // the digits of all axes are 54 at most
+
+constexpr int shift_of(uint32_t expected) { return expected < 8 ? 0 : static_cast<int>(expected - 8) / 2; }
+
+inline constexpr auto meanings = [] {
+    std::array<std::array<Meaning, 16>, n_expected> table;
+    for (uint32_t x = 0; x < n_expected; ++x)
+        for (uint32_t token = 0; token < 16; ++token) table[x][token] = Meaning(token, shift_of(x));
+    return table;
+}();
+
 // A coordinate's residual is told by its size; those far from what was expected by one told before, or in full.
 class FastModel {
 public:
@@ -30,38 +71,63 @@ public:
     using Row = AdaptiveSymbol<16>;
     using Residuals = std::array<int32_t, 3>;
 
-    // expected: the half-octaves that the magnitudes are expected in.
+    // expected: the half-octaves that the magnitudes are expected in.  Returns those that they are found in.
     template <class Coder>
-    void code(Coder& coder, size_t kind, const std::array<uint8_t, 4>& expected, Residuals& e) {
-        std::array<Row*, 3> rows;
-        std::array<uint32_t, 3> tokens;
-        std::array<int, 3> shifts;
+    Sizes code(Coder& coder, size_t kind, Sizes expected, Residuals& e) {
+        if ((expected & 0xe0e0e0) != 0) return code_wide(coder, kind, expected, e);
+        std::array<const Meaning*, 3> found;
+        uint32_t escapes = 0;
         for (size_t d = 0; d < 3; ++d) {
-            const uint32_t x = expected[d];
-            shifts[d] = static_cast<int>(std::max(x, centre) - centre) / 2;
-            rows[d] = &rows_[d][kind][std::min<size_t>(x, n_expected - 1)];
-            if constexpr (Coder::encoding) tokens[d] = residual_token(magnitude(e[d]), shifts[d]);
+            const uint32_t x = size_of(expected, d);
+            const uint32_t token = code_token(coder, d, rows_[d][kind][x], e[d], shift_of(x));
+            found[d] = &meanings[x][token];
+            escapes |= token + 1;
         }
-        coder.symbols.symbols(rows, tokens);
-        for (size_t d = 0; d < 3; ++d) {
-            e[d] = tokens[d] == escape_token ? code_surprise(coder, d, e[d]) : code_digits(coder, tokens[d], shifts[d], e[d]);
-        }
+        if (escapes > escape_token) return code_surprises(coder, found, e);
+        Sizes sizes = 0;
+        coder.plain.together([&](auto bits) {
+            for (size_t d = 0; d < 3; ++d) {
+                const Meaning& m = *found[d];
+                e[d] = m.residual(bits(Coder::encoding ? m.digits(e[d]) : 0, m.n_bits));
+                sizes |= Sizes{m.size} << (8 * d);
+            }
+        });
+        return sizes;
     }
 
 private:
-    static constexpr uint32_t centre = 8;
-    static constexpr size_t n_expected = 32;
     static constexpr size_t n_recent = 15;
 
-    // The sign is the lowest digit.
     template <class Coder>
-    static int32_t code_digits(Coder& coder, uint32_t token, int shift, int32_t e) {
-        const int n = n_low_digits(token, shift);
-        const int n_bits = n + 1 - (token == 0 && shift == 0);
-        uint64_t digits = 0;
-        if constexpr (Coder::encoding) digits = ((magnitude(e) & ((uint64_t{1} << n) - 1)) << 1 | (e < 0));
-        digits = coder.plain.bits(digits, n_bits);
-        return static_cast<int32_t>(with_sign(leading_digits(token) << n | digits >> 1, digits & 1));
+    static uint32_t code_token(Coder& coder, size_t d, Row& row, int32_t e, int shift) {
+        return coder.symbols.symbol(d, row, Coder::encoding ? residual_token(magnitude(e), shift) : 0);
+    }
+
+    // Whatever is expected.
+    template <class Coder>
+    [[gnu::noinline]] Sizes code_wide(Coder& coder, size_t kind, Sizes expected, Residuals& e) {
+        std::array<Meaning, 3> wide;
+        for (size_t d = 0; d < 3; ++d) {
+            const uint32_t x = size_of(expected, d);
+            wide[d] = Meaning(code_token(coder, d, rows_[d][kind][std::min(x, n_expected - 1)], e[d], shift_of(x)), shift_of(x));
+        }
+        return code_surprises(coder, {&wide[0], &wide[1], &wide[2]}, e);
+    }
+
+    template <class Coder>
+    [[gnu::noinline]] Sizes code_surprises(Coder& coder, const std::array<const Meaning*, 3>& found, Residuals& e) {
+        Sizes sizes = 0;
+        for (size_t d = 0; d < 3; ++d) {
+            const Meaning& m = *found[d];
+            if (m.is_escape) {
+                e[d] = code_surprise(coder, d, e[d]);
+                sizes |= half_octave(magnitude(e[d])) << (8 * d);
+            } else {
+                e[d] = m.residual(coder.plain.bits(m.digits(e[d]), m.n_bits));
+                sizes |= Sizes{m.size} << (8 * d);
+            }
+        }
+        return sizes;
     }
 
     // 0: a new one; else its place among the recent ones, from 1.
@@ -93,7 +159,7 @@ private:
 // A vertex and the half-octaves of its residual.
 struct FastVertex {
     std::array<uint32_t, 3> position;
-    std::array<uint8_t, 4> sizes;
+    Sizes sizes;
 };
 
 template <class Coder>
@@ -124,8 +190,6 @@ public:
     }
 
 private:
-    using Sizes = std::array<uint8_t, 4>;
-
     void face(int32_t gate) {
         if (vertex_[gate + 2] >= known_ && tip(gate)) return;
         for (int32_t c = gate; c < gate + 3; ++c)
@@ -145,14 +209,12 @@ private:
         const FastVertex &va = vertices_[a], &vb = vertices_[b], &vo = vertices_[o];
         const FastVertex &vx = vertices_[second ? x : a], &vy = vertices_[second ? y : o];
         std::array<uint32_t, 3> base;
-        Sizes expected{};
         for (size_t d = 0; d < 3; ++d) {
             const uint32_t first = va.position[d] + vb.position[d] - vo.position[d];
             const uint32_t other = vb.position[d] + vx.position[d] - vy.position[d];
             base[d] = first + static_cast<uint32_t>(static_cast<int32_t>(other - first) >> 1);
-            expected[d] = static_cast<uint8_t>((va.sizes[d] + vb.sizes[d] + 1) / 2);
         }
-        code(second, base, expected);
+        code(second, base, mean(va.sizes, vb.sizes));
         return true;
     }
 
@@ -161,18 +223,17 @@ private:
         Sizes& steps = steps_[kind - 2];
         code(kind, known_ > 0 ? vertices_[known_ - 1].position : std::array<uint32_t, 3>{}, steps);
         steps = vertices_[known_ - 1].sizes;
-        vertices_[known_ - 1].sizes = {};
+        vertices_[known_ - 1].sizes = 0;
     }
 
-    void code(size_t kind, const std::array<uint32_t, 3>& base, const Sizes& expected) {
+    void code(size_t kind, const std::array<uint32_t, 3>& base, Sizes expected) {
         FastVertex& at = vertices_[known_];
-        FastModel::Residuals e;
-        for (size_t d = 0; d < 3; ++d) e[d] = static_cast<int32_t>(at.position[d] - base[d]);
-        model_.code(coder_, kind, expected, e);
-        for (size_t d = 0; d < 3; ++d) {
-            at.position[d] = base[d] + static_cast<uint32_t>(e[d]);
-            at.sizes[d] = static_cast<uint8_t>(half_octave(magnitude(e[d])));
+        FastModel::Residuals e{};
+        if constexpr (Coder::encoding) {
+            for (size_t d = 0; d < 3; ++d) e[d] = static_cast<int32_t>(at.position[d] - base[d]);
         }
+        at.sizes = model_.code(coder_, kind, expected, e);
+        for (size_t d = 0; d < 3; ++d) at.position[d] = base[d] + static_cast<uint32_t>(e[d]);
         ++known_;
     }
 

@@ -30,8 +30,8 @@ inline uint32_t residual_token(uint64_t a, int shift) { return std::min(half_oct
 inline constexpr std::array<uint8_t, 16> digits_below = {0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6};
 inline constexpr std::array<uint8_t, 16> leading = {0, 1, 2, 3, 2, 3, 2, 3, 2, 3, 2, 3, 2, 3, 2, 3};
 
-inline int n_low_digits(uint32_t token, int shift) { return digits_below[token] + shift; }
-inline uint64_t leading_digits(uint32_t token) { return leading[token]; }
+constexpr int n_low_digits(uint32_t token, int shift) { return digits_below[token] + shift; }
+constexpr uint64_t leading_digits(uint32_t token) { return leading[token]; }
 
 inline int64_t with_sign(uint64_t a, uint64_t negative) { return static_cast<int64_t>((a ^ (0 - negative)) + negative); }
 
