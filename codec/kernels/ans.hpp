@@ -122,6 +122,16 @@ public:
         return symbol;
     }
 
+    // A symbol in two steps: where in the row it is, and which one that turned out to be.
+    template <int n>
+    uint32_t slot(size_t lane, const AdaptiveSymbol<n>& model) const { return slot_of(states_[lane], model); }
+
+    template <int n>
+    void take(size_t lane, AdaptiveSymbol<n>& model, uint32_t symbol) {
+        advance(states_[lane], model, symbol);
+        model.learn(symbol);
+    }
+
     template <class Model>
     void fixed(const std::array<Model, n_lanes>& models, std::array<uint32_t, n_lanes>& symbols) {
         std::array<uint64_t, n_lanes> states = states_;  // held in registers
@@ -167,15 +177,24 @@ public:
 private:
     template <class Model>
     uint32_t step(uint64_t& state, const Model& model) {
-        const auto slot = static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
-        const uint32_t symbol = model.find(slot);
-        const uint64_t start = model.start(symbol), end = model.start(symbol + 1);
-        state = (end - start) * (state >> model.total_bits) + slot - start;
-        if (state < least) [[unlikely]] refill(state);  // a symbol takes few bits, and then it can be foreseen
+    template <class Model>
+    uint32_t step(uint64_t& state, const Model& model) {
+        const uint32_t symbol = model.find(slot_of(state, model));
+        advance(state, model, symbol);
         return symbol;
     }
 
-    // Without a branch: whether a word is due is as good as random.
+    template <class Model>
+    static uint32_t slot_of(uint64_t state, const Model& model) {
+        return static_cast<uint32_t>(state) & ((1u << model.total_bits) - 1);
+    }
+
+    template <class Model>
+    void advance(uint64_t& state, const Model& model, uint32_t symbol) {
+        const uint64_t start = model.start(symbol), end = model.start(symbol + 1);
+        state = (end - start) * (state >> model.total_bits) + slot_of(state, model) - start;
+        if (state < least) [[unlikely]] refill(state);  // a symbol takes few bits, and then it can be foreseen
+    }
     void refill(uint64_t& state) {
         const uint8_t* p = bytes_.data() + at_;
         uint32_t word;

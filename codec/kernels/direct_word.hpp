@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "adaptive_symbol.hpp"
 #include "ans.hpp"
 #include "connectivity.hpp"
+#include "errors.hpp"
 #include "reverse.hpp"
 #include "special_coder.hpp"
 #include "specials.hpp"
@@ -64,14 +66,45 @@ public:
 
     explicit SingleLane(Ans& ans) : ans_(ans) {}
 
-    template <int n>
-    uint32_t symbol(AdaptiveSymbol<n>& model, uint32_t symbol) { return ans_.symbol(0, model, symbol); }
+    // Calls work with the symbol as a constant.  A decoder finds it by branches: those that are foreseen take
+    // the state off the path that all else waits for.
+    template <class Work>
+    void symbol(AdaptiveSymbol<8>& row, Symbol symbol, Work work) {
+        switch (find(row, symbol)) {
+            case C: return take<C>(row, work);
+            case L: return take<L>(row, work);
+            case R: return take<R>(row, work);
+            case S: return take<S>(row, work);
+            default: return take<E>(row, work);
+        }
+    }
 
     // p1: of 2^16.
     bool bit(bool bit, uint32_t p1) { return ans_.bit(0, bit, std::clamp(p1 >> 1, 1u, 32767u)); }
     uint32_t raw(uint32_t value, int n_bits) { return ans_.raw(0, value, n_bits); }
 
 private:
+    Symbol find(const AdaptiveSymbol<8>& row, Symbol known) const {
+        if constexpr (Ans::encoding) {
+            return known;
+        } else {
+            const uint32_t slot = ans_.slot(0, row);
+            if (slot < row.start(L)) return C;
+            if (slot >= row.start(R) && slot < row.start(S)) return R;
+            if (slot < row.start(R)) return L;
+            if (slot < row.start(E)) return S;
+            if (slot < row.start(n_symbols)) return E;
+            throw Corrupt("a symbol that is none of C, L, R, S, E");
+        }
+    }
+
+    template <Symbol symbol, class Work>
+    void take(AdaptiveSymbol<8>& row, Work work) {
+        if constexpr (Ans::encoding) ans_.symbol(0, row, symbol);
+        else ans_.take(0, row, symbol);
+        work(std::integral_constant<Symbol, symbol>{});
+    }
+
     Ans& ans_;
 };
 
@@ -95,11 +128,11 @@ public:
         const Index n_coded = header_.n_symbols - std::max<Index>(header_.n_single, 1);
         for (; position >= 0 && position >= n_coded; --position) apply(position, E, none);
         for (; position >= 0; --position) {
-            int64_t meets = Coder::encoding ? known_specials_.take(position) : none;
-            const uint32_t degree = reverse_.edge(reverse_.gate()).degree;
-            const auto symbol = static_cast<Symbol>(coder_.symbol(rows_.at(degree, latest_), symbols_[position]));
-            if (symbol == S && special_coder_.any_left()) meets = special(position, meets);
-            apply(position, symbol, meets);
+            DirectRows::Row& row = rows_.at(reverse_.edge(reverse_.gate()).degree, latest_);
+            coder_.symbol(row, static_cast<Symbol>(symbols_[position]), [&](auto symbol) {
+                const bool may_be_special = symbol == S && special_coder_.any_left();
+                apply(position, symbol, may_be_special ? special(position) : none);
+            });
         }
         if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
         return std::move(reverse_);
@@ -113,7 +146,8 @@ private:
         latest_ = (latest_ << 3 | (symbol + 1u)) & 63;
     }
 
-    int64_t special(Index position, int64_t meets) {
+    int64_t special(Index position) {
+        int64_t meets = Coder::encoding ? known_specials_.take(position) : none;
         if (reverse_.n_loops() > 1 && !special_coder_.code_kind(coder_, meets != none)) return none;
         meets = special_coder_.code_meets(coder_, reverse_, position, meets);
         if (!Coder::encoding) specials_.push_back({position, meets});

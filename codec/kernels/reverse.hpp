@@ -101,7 +101,7 @@ private:
 };
 
 // Once per triangle: inline.
-inline void Reverse::apply(Symbol symbol, int64_t meets) {
+[[gnu::always_inline]] inline void Reverse::apply(Symbol symbol, int64_t meets) {
     --triangle_;
     Index gate;
     switch (symbol) {
@@ -161,7 +161,7 @@ inline Index Reverse::end() {
     return g;
 }
 
-inline Index Reverse::right() {
+[[gnu::always_inline]] inline Index Reverse::right() {
     const Index n = top(), r = take(), h = 3 * triangle_;
     LoopEdge& gate = edges_[n];
     LoopEdge& after = edges_[gate.next];
@@ -178,7 +178,7 @@ inline Index Reverse::right() {
     return n;
 }
 
-inline Index Reverse::left() {
+[[gnu::always_inline]] inline Index Reverse::left() {
     const Index n = top(), g = take(), h = 3 * triangle_;
     LoopEdge& gate = edges_[n];  // becomes the left edge
     LoopEdge& after = edges_[gate.next];
@@ -195,7 +195,7 @@ inline Index Reverse::left() {
     return g;
 }
 
-inline Index Reverse::close() {
+[[gnu::always_inline]] inline Index Reverse::close() {
     const Index n = top(), h = 3 * triangle_;
     const LoopEdge& gate = edges_[n];
     const Index m = gate.previous;
