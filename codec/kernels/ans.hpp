@@ -177,8 +177,6 @@ public:
 private:
     template <class Model>
     uint32_t step(uint64_t& state, const Model& model) {
-    template <class Model>
-    uint32_t step(uint64_t& state, const Model& model) {
         const uint32_t symbol = model.find(slot_of(state, model));
         advance(state, model, symbol);
         return symbol;
@@ -195,6 +193,8 @@ private:
         state = (end - start) * (state >> model.total_bits) + slot_of(state, model) - start;
         if (state < least) [[unlikely]] refill(state);  // a symbol takes few bits, and then it can be foreseen
     }
+
+    // Without a branch: whether a word is due is as good as random.
     void refill(uint64_t& state) {
         const uint8_t* p = bytes_.data() + at_;
         uint32_t word;
