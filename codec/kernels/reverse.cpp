@@ -54,7 +54,7 @@ Index Reverse::splice(Index n, Index m) {
     match(h + 2, met);
     add_edge(met);
     add_edge(edges_[first]);
-    add_edge(edges_[beyond], gate.degree);
+    add_edges(edges_[beyond], gate.degree);
     add_excess(edges_[beyond], gate.excess - 8);
     unite(edges_[beyond].vertex, gate.vertex);
     met.half_edge = h;
@@ -92,19 +92,22 @@ Connectivity Reverse::finish() {
     if (stack_.size() < static_cast<size_t>(n_closed_) + n_single_) {
         throw Corrupt("the word leaves fewer loops than there are components");
     }
-    move_closed_components();
-    return numbered();
+    return numbered(move_closed_components());
 }
 
 // Word and closed components are in one array, where a closed component's own first triangle must come
-// before its symbols: each moves towards the front by the number of closed components after it.
-void Reverse::move_closed_components() {
+// before its symbols: each moves towards the front by the number of closed components after it.  Returns the
+// first triangle of each component.
+std::vector<Index> Reverse::move_closed_components() {
     const size_t n_open = stack_.size() - n_closed_ - n_single_;
     // From the top of the stack down: the components in the order of the word.
     const auto component = [&](size_t i) -> const Active& { return stack_[stack_.size() - 1 - i]; };
     const auto front = [&](size_t i) {
         return i < stack_.size() ? component(i).front : n_triangles_ - n_closed_;
     };
+    std::vector<Index> firsts;
+    firsts.reserve(stack_.size());
+    for (size_t i = 0; i < n_open; ++i) firsts.push_back(front(i));
     if (n_open > 0) shift(0, front(n_open), n_closed_);
     for (Index j = 0; j < n_closed_; ++j) {
         const size_t i = n_open + j;
@@ -116,7 +119,10 @@ void Reverse::move_closed_components() {
         }
         shift(front(i), front(i + 1), by);
         add_first_triangle(active.front + j, a, by);
+        firsts.push_back(active.front + j);
     }
+    for (size_t i = n_open + n_closed_; i < stack_.size(); ++i) firsts.push_back(front(i) + n_closed_);
+    return firsts;
 }
 
 void Reverse::shift(Index from, Index to, Index by) {
@@ -140,17 +146,28 @@ void Reverse::add_first_triangle(Index at, const LoopEdge& a, Index by) {
     vertex_[3 * at + 2] = b.vertex;
 }
 
-Connectivity Reverse::numbered() {
+// A triangle that is not the first of its component has its gate in common with an earlier one: only its
+// third corner may be the first of a vertex.
+Connectivity Reverse::numbered(const std::vector<Index>& firsts) {
     for (Index v = 0; v < n_vertices_; ++v) same_as_[v] = same_as_[same_as_[v]];
     std::vector<Index> number(n_vertices_, none);
     Index n = 0;
-    for (Index& v : vertex_) {
-        Index& known = number[same_as_[v]];
+    const auto meet = [&](Index corner) {
+        Index& known = number[same_as_[vertex_[corner]]];
         const bool is_new = known == none;
         known = is_new ? n : known;
         n += is_new;
-        v = known;
+    };
+    for (size_t i = 0; i < firsts.size(); ++i) {
+        const Index end = i + 1 < firsts.size() ? firsts[i + 1] : n_triangles_;
+        meet(3 * firsts[i]);
+        meet(3 * firsts[i] + 1);
+        for (Index t = firsts[i]; t < end; ++t) meet(3 * t + 2);
     }
+    for (Index v = 0; v < n_vertices_; ++v) number[v] = number[same_as_[v]];
+    Index all = 0;
+    for (Index& v : vertex_) all |= v = number[v];
+    if (all < 0) throw Corrupt("the word joins components");
     for (Index& h : opposite_) h = std::max(h, none);
     return {std::move(opposite_), {std::move(vertex_), n}};
 }

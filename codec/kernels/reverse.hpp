@@ -76,16 +76,17 @@ private:
     void match(Index h, const LoopEdge& edge);
     void lie_on_loop(Index h, Index e) { opposite_[h] = ~e; }
     void set_corners(Index a, Index b, Index c);
-    static void add_edge(LoopEdge& edge, uint8_t n = 1) {
+    static void add_edge(LoopEdge& edge) { edge.degree += edge.degree < max_degree; }
+    static void add_edges(LoopEdge& edge, uint8_t n) {
         edge.degree = std::min<uint8_t>(edge.degree + n, max_degree);
     }
     static void add_excess(LoopEdge& edge, int excess) {
         edge.excess = static_cast<uint8_t>(std::clamp(edge.excess + excess, 0, 15));
     }
-    void move_closed_components();
+    std::vector<Index> move_closed_components();
     void shift(Index from, Index to, Index by);
     void add_first_triangle(Index at, const LoopEdge& a, Index by);
-    Connectivity numbered();
+    Connectivity numbered(const std::vector<Index>& firsts);
 
     PieceKind kind_;
     Index n_closed_, n_single_;
@@ -132,19 +133,22 @@ inline void Reverse::release(Index e) {
 }
 
 inline Index Reverse::new_vertex() {
-    same_as_[n_vertices_] = n_vertices_;
-    return n_vertices_++;
+    const Index vertex = n_vertices_++;
+    return same_as_[vertex] = vertex;
 }
 
 inline void Reverse::match(Index h, const LoopEdge& edge) {
-    opposite_[h] = edge.half_edge;
-    opposite_[edge.half_edge] = h;
+    Index* const opposite = opposite_.data();  // in a register whatever is written
+    const Index across = edge.half_edge;
+    opposite[h] = across;
+    opposite[across] = h;
 }
 
 inline void Reverse::set_corners(Index a, Index b, Index c) {
-    vertex_[3 * triangle_] = a;
-    vertex_[3 * triangle_ + 1] = b;
-    vertex_[3 * triangle_ + 2] = c;
+    Index* const corners = &vertex_[3 * triangle_];
+    corners[0] = a;
+    corners[1] = b;
+    corners[2] = c;
 }
 
 inline Index Reverse::end() {
