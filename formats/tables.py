@@ -1,5 +1,6 @@
 """Model tables <-> the model chunk; built-in tables are known by number."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -23,9 +24,15 @@ def number_of(model: WordModel) -> int:
     if isinstance(model, Effort):
         return {effort: number for number, effort in layout.ADAPTIVE_MODELS.items()}[model]
     for number, name in layout.MODELS.items():
-        if model.name == name and model.same_as(load(name)):
+        if model.name == name and model.same_as(_built_in(name)):
             return number
     return layout.INLINE_MODEL
+
+
+@cache
+def _built_in(name: str) -> AnyTable:
+    """A table that ships, read once."""
+    return load(name)
 
 
 def write(table: AnyTable) -> bytes:
@@ -53,7 +60,7 @@ def read(number: int, chunk: Chunk | None) -> WordModel:
     if number in layout.ADAPTIVE_MODELS:
         return layout.ADAPTIVE_MODELS[number]
     if number != layout.INLINE_MODEL:
-        return load(layout.MODELS[number])
+        return _built_in(layout.MODELS[number])
     assert chunk is not None, "the container checks that it is there"
     with corrupt_at(chunk.where):
         try:

@@ -8,38 +8,41 @@ namespace ebz {
 
 namespace {
 
-std::vector<Index> reordered(std::span<const Index> opposite, std::span<const Index> gates) {
-    std::vector<Index> output_of(opposite.size());
+// The corners of pieces in the order of their gates, and vertices by first use.
+void reorder(const Pieces& pieces, std::span<const Index> faces, EncodedConnectivity& encoded) {
+    const std::vector<Index>& gates = encoded.word.gates;
+    auto& [opposite, fans] = encoded.connectivity;
+    std::vector<Index> source(pieces.opposite.size()), output_of(source.size()), number(pieces.fans.n_vertices, none);
+    fans.vertex.resize(source.size());
+    encoded.source_vertex.reserve(number.size());
     for (Index t = 0; t < static_cast<Index>(gates.size()); ++t) {
         Index h = gates[t];
-        for (Index side = 0; side < 3; ++side, h = next(h)) output_of[h] = 3 * t + side;
+        for (Index c = 3 * t; c < 3 * t + 3; ++c, h = next(h)) {
+            source[c] = h;
+            output_of[h] = c;
+            Index& vertex = number[pieces.fans.vertex[h]];
+            if (vertex == none) {
+                vertex = fans.n_vertices++;
+                encoded.source_vertex.push_back(faces[h]);
+            }
+            fans.vertex[c] = vertex;
+        }
     }
-    std::vector<Index> output(opposite.size());
-    for (Index h = 0; h < static_cast<Index>(opposite.size()); ++h) {
-        output[output_of[h]] = opposite[h] == none ? none : output_of[opposite[h]];
+    opposite.resize(source.size());
+    for (size_t c = 0; c < source.size(); ++c) {
+        const Index across = pieces.opposite[source[c]];
+        opposite[c] = across == none ? none : output_of[across];
     }
-    return output;
 }
 
 }  // namespace
 
 EncodedConnectivity encode_connectivity(std::span<const Index> faces, Index n_vertices) {
     EncodedConnectivity encoded;
-    {
-        const TriangleFaces triangles(faces);
-        const Pieces pieces = cut_into_pieces(triangles, n_vertices);
-        encoded.word = encode_word(triangles, n_vertices, pieces.opposite, pieces.fans);
-        encoded.connectivity.opposite = reordered(pieces.opposite, encoded.word.gates);
-    }
-    const std::vector<Index>& gates = encoded.word.gates;
-    Fans& fans = encoded.connectivity.fans = number_fans(encoded.connectivity.opposite);
-    encoded.source_vertex.resize(fans.n_vertices);
-    for (Index t = 0; t < static_cast<Index>(gates.size()); ++t) {
-        Index h = gates[t];
-        for (Index side = 0; side < 3; ++side, h = next(h)) {
-            encoded.source_vertex[fans.vertex[3 * t + side]] = faces[h];
-        }
-    }
+    const TriangleFaces triangles(faces);
+    const Pieces pieces = cut_into_pieces(triangles, n_vertices);
+    encoded.word = encode_word(triangles, n_vertices, pieces.opposite, pieces.fans);
+    reorder(pieces, faces, encoded);
     return encoded;
 }
 
