@@ -73,25 +73,21 @@ private:
         const UintLanes first = a.at + b.at - o.at, apart = c.at + d.at - p.at - first;
         const UintLanes plain = first + as_uints(as_ints(apart) >> 1);
         const Lanes off = as_floats(apart);
-        const Lanes sum = as_floats(a.at - first) + as_floats(b.at - first) + as_floats(c.at - first) + as_floats(d.at - first);
-        const Lanes smooth = clamp(off * 0.3f + sum * 0.1f, -1e9f, 1e9f);
+        const Lanes smooth = off * 0.3f + as_floats(a.at + b.at + c.at + d.at - (first << 2)) * 0.1f;  // within 31 bits
         const IntLanes is_plain = lead_ <= 0.0f;
         const UintLanes base = choose(is_plain, plain, first + as_uints(rounded(smooth)));
-        const Lanes size = (magnitudes(a.residual) + magnitudes(b.residual) + magnitudes(c.residual) + magnitudes(d.residual)) * 0.25f;
+        const Lanes size = ((magnitudes(a.residual) + magnitudes(b.residual)) + (magnitudes(c.residual) + magnitudes(d.residual))) * 0.25f;
         const Lanes spread = g == h ? size : magnitudes(off);
         const Lanes fraction = (smooth - as_floats(base - first)) * (is_plain ? splat<Lanes>(2.0f) : splat<Lanes>(4.0f));
-        UintLanes near = a.at - base;
-        for (const MediumSite* x : {&b, &c, &d}) near = nearer(near, x->at - base);
-        const Lanes drift = (a.residual + b.residual + c.residual + d.residual) * 0.25f;
+        const UintLanes near = nearer(nearer(a.at - base, b.at - base), nearer(c.at - base, d.at - base));
+        const Lanes drift = ((a.residual + b.residual) + (c.residual + d.residual)) * 0.25f;
 
         MediumSite& site = sites_[v];
         const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, g == h ? 0 : 1}, residual(site, base));
         const UintLanes at = base + e;
         site = {at, as_floats(e)};
         const Lanes from_plain = magnitudes(as_floats(at - plain)), from_smooth = magnitudes(as_floats(at - first) - smooth);
-        // Bit patterns are nearly logarithms.
-        const IntLanes lead = reinterpret_cast<IntLanes>(from_plain + 1.0f) - reinterpret_cast<IntLanes>(from_smooth + 1.0f);
-        lead_ += (__builtin_convertvector(lead, Lanes) - lead_) * 0.01f;
+        lead_ += (bit_patterns(from_plain + 1.0f) - bit_patterns(from_smooth + 1.0f) - lead_) * 0.01f;
     }
 
     const MediumSite& start(int32_t gate) const { return sites_[vertex_[gate]]; }
@@ -110,9 +106,8 @@ private:
 
     // The nearest integers.
     static IntLanes rounded(Lanes x) {
-        const Lanes y = x + 0.5f;
-        const IntLanes whole = truncated(y);
-        return whole + (__builtin_convertvector(whole, Lanes) > y);
+        const IntLanes half = reinterpret_cast<IntLanes>(splat<Lanes>(0.5f)) | (reinterpret_cast<IntLanes>(x) & INT32_MIN);
+        return truncated(x + reinterpret_cast<Lanes>(half));
     }
 
     Coder& coder_;

@@ -27,6 +27,9 @@ inline Lanes magnitudes(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_ca
 inline Lanes clamp(Lanes x, float low, float high) { return min(max(x, splat<Lanes>(low)), splat<Lanes>(high)); }
 inline IntLanes truncated(Lanes x) { return __builtin_convertvector(x, IntLanes); }
 
+// Which are nearly logarithms.
+inline Lanes bit_patterns(Lanes x) { return __builtin_convertvector(reinterpret_cast<IntLanes>(x), Lanes); }
+
 // Half-octaves of x + 1/8, x >= 0: 1 gives 6.
 inline IntLanes half_octaves(Lanes x) { return (reinterpret_cast<IntLanes>(x + 0.125f) >> 22) - 248; }
 
@@ -49,13 +52,13 @@ public:
         const Lanes pulled = known.drift * 3.0f / (known.scale + 0.125f);
         const IntLanes near = truncated(clamp(as_floats(known.near) * cell, -7.0f, 7.0f) + 7.5f);
         const IntLanes wide = half_octaves(known.spread) - 2 * shifts.by;
-        const IntLanes by_level = shifts.level << 4 | at_most_15(wide);
-        const IntLanes by_value = near << 4 | fifteenths(known.fraction * cell);
-        const IntLanes by_drift = known.two << 8 | shifts.level << 4 | fifteenths(pulled);
+        const std::array<IntLanes, 3> contexts = {first_by_level + (shifts.level << 4) + at_most_15(wide),
+                                                  first_by_value + (near << 4) + fifteenths(known.fraction * cell),
+                                                  first_by_drift + known.two * (n_levels << 4) + (shifts.level << 4) + fifteenths(pulled)};
         Rows<3> rows;
         for (size_t d = 0; d < 3; ++d)
-            rows[d] = {&level_rows_[d][static_cast<size_t>(by_level[d])], &value_rows_[d][static_cast<size_t>(by_value[d])],
-                       &drift_rows_[d][static_cast<size_t>(by_drift[d])]};
+            for (size_t i = 0; i < 3; ++i)
+                rows[d][i] = &rows_[d][static_cast<size_t>(contexts[by_merit_[i]][d])];
         return code(coder, rows, shifts, known.near, e);
     }
 
@@ -71,6 +74,8 @@ public:
 private:
     static constexpr uint32_t near_token = 0, zero_token = 7, base_token = 14;
     static constexpr int top_level = 10, n_levels = top_level + 2;
+    static constexpr int first_by_level = 0, first_by_value = 16 * n_levels, first_by_drift = first_by_value + 16 * 15;
+    static constexpr size_t n_contexts = first_by_drift + 2 * 16 * n_levels;
     static constexpr uint64_t escape_cell = 12;
     // The first cell of each symbol and the digits that tell those of a symbol apart.
     static constexpr std::array<int8_t, 16> first_cell = {0, -11, -7, -5, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8, 0, 0};
@@ -105,10 +110,23 @@ private:
             if constexpr (Coder::encoding) tokens[d] = token(e[d], near[d], shifts.by[d]);
         }
         coder.symbols.fixed(mixes, tokens);
+        if constexpr (n == 3)
+            if (++n_coded_ % 4 == 0) judge(rows, tokens);
         for (size_t d = 0; d < 3; ++d)
             for (SymbolRow* row : rows[d]) learn(*row, mixes[d], tokens[d]);
         const uint32_t x = code_rest(coder, 0, tokens[0], shifts, near, e), y = code_rest(coder, 1, tokens[1], shifts, near, e);
         return UintLanes{x, y, code_rest(coder, 2, tokens[2], shifts, near, e), 0};
+    }
+
+    // The context that tells symbols best comes last and so counts most.
+    void judge(const Rows<3>& rows, const std::array<uint32_t, 3>& tokens) {
+        for (size_t d = 0; d < 3; ++d) {
+            IntLanes frequencies{};
+            for (size_t i = 0; i < 3; ++i) frequencies[by_merit_[i]] = static_cast<int32_t>(rows[d][i]->frequency(tokens[d]));
+            merits_ += (bit_patterns(__builtin_convertvector(frequencies, Lanes)) - merits_) * 0.003f;
+        }
+        const size_t best = merits_[0] > merits_[1] ? (merits_[0] > merits_[2] ? 0 : 2) : (merits_[1] > merits_[2] ? 1 : 2);
+        by_merit_ = {best == 0 ? 2u : 0u, best == 1 ? 2u : 1u, best};
     }
 
     // What the symbol leaves.
@@ -156,9 +174,10 @@ private:
         return static_cast<uint32_t>(((negative ? 0 - above : above) << shift) + (low & mask) - half);
     }
 
-    std::array<std::array<SymbolRow, 16 * n_levels>, 3> level_rows_;
-    std::array<std::array<SymbolRow, 16 * 15>, 3> value_rows_;
-    std::array<std::array<SymbolRow, 256 + 16 * n_levels>, 3> drift_rows_;
+    std::array<std::array<SymbolRow, n_contexts>, 3> rows_;
+    std::array<size_t, 3> by_merit_ = {0, 1, 2};
+    Lanes merits_{};
+    uint32_t n_coded_ = 0;
     std::array<std::array<std::array<SymbolRow, n_levels>, 3>, 2> step_rows_;
     std::array<std::array<AdaptiveSymbol<16>, n_levels>, 3> far_;
 };
