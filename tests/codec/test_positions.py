@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 from ebz.codec import _kernels
 from ebz.codec.connectivity import Surface, traverse
 from ebz.codec.positions import Method
+from ebz.codec.sample import glued_grid
 from tests.meshes import face_lists, rngs
+from tests.oracles import medium
 
 INTEGER_METHODS = (Method.FAST, Method.MEDIUM, Method.LIGHT, Method.STRONG)
 # Those of 32 bits, and the widest values that each of them codes.
@@ -85,6 +87,34 @@ def test_any_bytes_decode_to_the_same_on_both_instruction_sets(along, method, da
         assert np.array_equal(decode(data, surface, n, method), coordinates)
     finally:
         _kernels.forbid_extensions(False)
+
+
+def read_by_twin(stream: bytes, surface: Surface, n: int) -> Values:
+    corners = surface.opposite.tolist(), surface.vertex.tolist()
+    return np.array(medium.Decoder(stream, *corners, n).decode(), np.int64).reshape(-1)
+
+
+@settings(deadline=None)
+@given(surfaces(), st.data())
+def test_a_twin_of_the_medium_method_reads_the_same(along, data):
+    surface, n = along
+    written = values(n, WIDEST[Method.MEDIUM]).map(
+        lambda coordinates: encode(surface, n, coordinates, Method.MEDIUM)
+    )
+    stream = data.draw(written | st.binary(max_size=200))
+    read = decode(stream, surface, n, Method.MEDIUM)
+    assert np.array_equal(read_by_twin(stream, surface, n), read)
+
+
+@pytest.mark.parametrize("height", [30, 3000])
+def test_a_twin_of_the_medium_method_reads_a_long_stream(height):
+    row, column, faces = glued_grid(20, 25, "open", "join")
+    surface, order = traverse(faces, len(row))
+    x, y = row[order.vertices], column[order.vertices]
+    heights = height * np.sin(x / 5) * np.cos(y / 4)
+    coordinates = np.stack([40 * x, 40 * y, heights.round()], axis=1).astype(np.int64).reshape(-1)
+    stream = encode(surface, len(x), coordinates, Method.MEDIUM)
+    assert np.array_equal(read_by_twin(stream, surface, len(x)), coordinates)
 
 
 @pytest.mark.parametrize("method", [Method.FAST, Method.MEDIUM])
