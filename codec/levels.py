@@ -40,6 +40,11 @@ def position_method(level: int) -> Method:
     return Method.LIGHT if level < 7 else Method.STRONG
 
 
+def has_fast_attributes(level: int) -> bool:
+    """Whether attributes are to take few operations."""
+    return level < 6
+
+
 def guaranteed_by(model: WordModel) -> AnyTable:
     """The table whose certificate bounds a word: adaptive models are kept where shorter."""
     return model if isinstance(model, AnyTable) else default_table()

@@ -24,7 +24,7 @@ from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.fitting import LOSSLESS, Precision
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
-from ebz.codec.levels import DEFAULT_LEVEL, position_method, word_models
+from ebz.codec.levels import DEFAULT_LEVEL, has_fast_attributes, position_method, word_models
 from ebz.codec.mesh import Mesh
 from ebz.codec.order import OrderStreams, SourceOrder
 from ebz.codec.welding import Split
@@ -100,7 +100,7 @@ def encode(
     )
     exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
     report("attributes", 3, N_STAGES)
-    keep_rotation = keeps_rotation(mesh.face_attributes)
+    keep_rotation, fast = keeps_rotation(mesh.face_attributes), has_fast_attributes(level)
     split = welding.split(surface, arrangement.splits, len(stored))
     kept = source_order.kept(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
@@ -127,17 +127,17 @@ def encode(
             order=_encode_order(kept, surface, split, points.integers),
         ),
         vertex_attributes=coding.encode(
-            mesh.vertex_attributes, order.vertices, sites.by_vertex, attribute_precision
+            mesh.vertex_attributes, order.vertices, sites.by_vertex, attribute_precision, fast=fast
         )
         if mesh.vertex_attributes
         else [],
         face_attributes=coding.encode(
-            mesh.face_attributes, order.faces, sites.by_face, attribute_precision
+            mesh.face_attributes, order.faces, sites.by_face, attribute_precision, fast=fast
         )
         if mesh.face_attributes
         else [],
         corner_attributes=corners.encode(
-            mesh.corner_attributes, order.all_corners, sites, attribute_precision
+            mesh.corner_attributes, order.all_corners, sites, attribute_precision, fast=fast
         )
         if mesh.corner_attributes
         else [],

@@ -24,7 +24,9 @@ from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.lattice import Integers
 
 EXACT = AttributePrecision()
-SPACES = {2: 1, 4: 1, 8: 2}  # of floats by their bits; halves are coded as the integers they are
+SPACES = {4: 1, 8: 2}  # of floats by their bits; halves are coded as the integers they are
+# Labels of these take little time, and numbers say little about them.
+FEW = 64
 
 
 def encode(
@@ -32,11 +34,14 @@ def encode(
     order: npt.NDArray[Any],
     items: Items,
     precision: AttributePrecision = EXACT,
+    *,
+    fast: bool = False,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source entry of each output entry."""
 
     def coded(bundle: Bundle) -> EncodedArray:
-        return encode_bundle(replace(bundle, values=bundle.values[order]), items, precision)
+        placed = replace(bundle, values=bundle.values[order])
+        return encode_bundle(placed, items, precision, fast=fast)
 
     return threads.run(coded, bundles(attributes, precision.of))
 
@@ -58,9 +63,9 @@ def by_name(array: EncodedArray, values: npt.NDArray[Any]) -> Attributes:
 
 
 def encode_bundle(
-    bundle: Bundle, items: Items, precision: AttributePrecision = EXACT
+    bundle: Bundle, items: Items, precision: AttributePrecision = EXACT, *, fast: bool = False
 ) -> EncodedArray:
-    """The shortest of the streams that suit the values."""
+    """The shortest of the streams that suit the values; fast: of those that take little time."""
     values = bundle.values
     array = EncodedArray(bundle.names, values.dtype.newbyteorder("="), values.shape[1:], b"")
     if not values.size:
@@ -68,9 +73,10 @@ def encode_bundle(
     flat = values.reshape(len(values), -1)
     lattice = lattice_of(flat, precision.of(bundle.names[0])) or lattices.fit(flat)
     plan, integers = specials.integers(flat, lattice)
-    plans = _plans(plan, integers, flat, items, array)
-    candidates = threads.run(lambda pair: (pair[0], _encode(*pair, items, array)), plans)
-    best, data = min(candidates, key=lambda pair: len(pair[1]) + len(pair[0].labels))
+    plans = list(_plans(plan, integers, flat, items, array))
+    coded = _encode_all(_fast(plans, array), items, array) if fast else []
+    coded = coded or _encode_all(plans, items, array)
+    best, data = min(coded, key=lambda pair: len(pair[1]) + len(pair[0].labels))
     return replace(array, plan=best, data=data)
 
 
@@ -104,6 +110,23 @@ def _plans(
             yield replace(plan, method=method, n_labels=n_labels, labels=stream), numbers
 
 
+def _fast(plans: list[tuple[Plan, Integers]], array: EncodedArray) -> list[tuple[Plan, Integers]]:
+    """The plans that take few operations a value, or few labels; none for bits of floats."""
+    plain, integers = plans[0]
+    if _is_in_floats(plain, array):
+        return []
+    few = [plan for plan in plans if plan[0].method == Method.SYMBOLS and plan[0].n_labels <= FEW]
+    return [(replace(plain, method=Method.FAST), integers), *few]
+
+
+def _encode_all(
+    plans: list[tuple[Plan, Integers]], items: Items, array: EncodedArray
+) -> list[tuple[Plan, bytes]]:
+    """The plans and their streams, but for fast ones where a value has more than 32 bits."""
+    coded = threads.run(lambda pair: (pair[0], _encode(*pair, items, array)), plans)
+    return [(plan, data) for plan, data in coded if data]
+
+
 def _encode(plan: Plan, integers: Integers, items: Items, array: EncodedArray) -> bytes:
     values = np.ascontiguousarray(integers).reshape(-1)
     return _kernels.encode_attribute(**_known(plan, items, array, integers.shape[1]), values=values)
@@ -118,8 +141,7 @@ def _decode(array: EncodedArray, items: Items) -> Integers:
 
 def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[str, Any]:
     """What both sides tell the kernel."""
-    in_floats = isinstance(plan.lattice, BitsLattice) and not plan.n_labels
-    space = SPACES[array.dtype.itemsize] if in_floats and array.dtype.itemsize > 2 else 0
+    space = SPACES[array.dtype.itemsize] if _is_in_floats(plan, array) else 0
     guess = np.zeros(0)
     if plan.guess != Guess.NONE and not plan.n_labels:
         guess = guesses.positions(plan, items)
@@ -140,3 +162,9 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
         "heights": Guess.HEIGHTS in plan.guess,
         "by_area": Guess.AREA in plan.guess,
     }
+
+
+def _is_in_floats(plan: Plan, array: EncodedArray) -> bool:
+    """Whether integers stand for floats of 4 or 8 bytes, and are predicted as these."""
+    is_exact = isinstance(plan.lattice, BitsLattice) and not plan.n_labels
+    return is_exact and array.dtype.itemsize in SPACES

@@ -19,12 +19,18 @@ from ebz.codec.errors import corrupt_at
 
 
 def encode(
-    attributes: Attributes, order: npt.NDArray[Any], sites: Sites, precision: AttributePrecision
+    attributes: Attributes,
+    order: npt.NDArray[Any],
+    sites: Sites,
+    precision: AttributePrecision,
+    *,
+    fast: bool,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source corner of each corner of the output."""
 
     def coded(bundle: Bundle) -> EncodedArray:
-        return _encode(replace(bundle, values=bundle.values[order]), sites, precision)
+        placed = replace(bundle, values=bundle.values[order])
+        return _encode(placed, sites, precision, fast=fast)
 
     return threads.run(coded, bundles(attributes, precision.of))
 
@@ -38,13 +44,16 @@ def decode(arrays: list[EncodedArray], sites: Sites) -> Attributes:
     return named
 
 
-def _encode(bundle: Bundle, sites: Sites, precision: AttributePrecision) -> EncodedArray:
+def _encode(
+    bundle: Bundle, sites: Sites, precision: AttributePrecision, *, fast: bool
+) -> EncodedArray:
     wedge, is_first = _wedges(bundle.values, sites.vertex)
     seams = b""
     if int(wedge.max(initial=-1)) != int(sites.vertex.max(initial=-1)):
         seams = _kernels.encode_splits(sites.opposite, sites.vertex, sites.n_vertices, wedge)
     bundle = replace(bundle, values=bundle.values[is_first])
-    return replace(coding.encode_bundle(bundle, _items(wedge, sites), precision), seams=seams)
+    array = coding.encode_bundle(bundle, _items(wedge, sites), precision, fast=fast)
+    return replace(array, seams=seams)
 
 
 def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:

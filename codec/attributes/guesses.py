@@ -26,7 +26,7 @@ HALVINGS, TERMS = 3, 12
 @np.errstate(all="ignore")
 def best(plan: Plan, values: npt.NDArray[Any], items: Items) -> Guess:
     """The normals nearest to the entries; NONE where there are none, or they are no directions."""
-    if values.shape[1] != 3 or not items.has_surface:
+    if values.shape[1] != 3 or values.dtype.kind not in "fi" or not items.has_surface:
         return Guess.NONE
     is_direction = plan.relation in (Relation.UNIT, Relation.OCTAHEDRAL)
     wide = np.nan_to_num(values.astype(np.float64), posinf=0, neginf=0) / _scale(plan)

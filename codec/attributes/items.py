@@ -67,6 +67,11 @@ class Sites:
         with np.errstate(invalid="ignore"):
             return self.vertices.astype(np.float64)
 
+    @cached_property
+    def corner_points(self) -> Floats:
+        """(3t, 3) where the corners of the triangles are."""
+        return self.points[self.vertex]
+
 
 @dataclass(frozen=True)
 class Items:
@@ -99,7 +104,7 @@ class Items:
     @property
     def corner_points(self) -> Floats:
         """(3m, 3) where the corners of the surface are."""
-        return NOWHERE if self.sites is None else self.sites.points[self.sites.vertex]
+        return NOWHERE if self.sites is None else self.sites.corner_points
 
     @property
     def site(self) -> Int32s:

@@ -14,6 +14,7 @@ class Method(enum.IntEnum):
 
     NUMBERS = 0
     SYMBOLS = 1
+    FAST = 2
 
 
 class Relation(enum.IntEnum):

@@ -43,6 +43,7 @@ def model(plan: Plan) -> str:
     if plan.method == Method.SYMBOLS:
         return f"{plan.n_labels} labels"
     parts = [f"numbers of {plan.n_labels} labels" if plan.n_labels else "numbers"]
+    parts += ["fast"] if plan.method == Method.FAST else []
     parts += [RELATIONS[plan.relation]] if plan.relation in RELATIONS else []
     parts += ["normals of the surface"] if Guess.NORMALS in plan.guess else []
     return ", ".join(parts)

@@ -138,6 +138,24 @@ def test_labels_are_coded_as_such():
     assert len(array.data) < mesh.n_vertices / 16
 
 
+def test_low_levels_take_the_fast_method_where_values_have_room():
+    mesh = torus(2000)
+    colours = (mesh.vertices * 90 + 128).astype(np.uint8)
+    wide = np.arange(mesh.n_vertices) ** 5
+    for values, method in ((colours, Method.FAST), (wide, Method.NUMBERS)):
+        assert plan_of(values, mesh, level=1).plan.method == method
+        assert plan_of(values, mesh, level=6).plan.method == Method.NUMBERS
+
+
+def test_the_fast_method_follows_what_components_share():
+    mesh = torus(8000)
+    shape = (mesh.n_vertices, 3)
+    alone = np.random.default_rng(3).integers(-20, 20, shape)
+    alike = alone[:, :1] + np.array([100, 120, 90])
+    sizes = [len(plan_of(values, mesh, level=1).data) for values in (alike, alone)]
+    assert 2 * sizes[0] < sizes[1]
+
+
 def test_what_is_constant_costs_next_to_nothing():
     n = torus(2000).n_vertices
     for values in (np.zeros(n), np.full(n, np.nan), np.full((n, 4), 3, np.uint8)):

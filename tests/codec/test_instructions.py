@@ -35,6 +35,27 @@ def test_small_meshes(mesh: ebz.Mesh) -> None:
         assert extended == baseline
 
 
+def test_attributes() -> None:
+    rng = np.random.default_rng(6)
+    faces = random_triangulation(500).faces
+    n, m = int(faces.max()) + 1, len(faces)
+    mesh = ebz.Mesh(
+        rng.random((n, 3)),
+        faces,
+        {"a": rng.integers(0, 200, (n, 4)), "normal": rng.normal(size=(n, 3))},
+        {"b": rng.integers(-9, 9, m) ** 9},
+        corner_attributes={"c": rng.integers(0, 2, (3 * m, 2))},
+    )
+    for options in ({}, {"normal_bits": 9}):
+        files, decoded = [], []
+        for forbidden in (False, True):
+            _kernels.forbid_extensions(forbidden)
+            files.append(ebz.compress(mesh, level=1, **options))
+            decoded.append(ebz.compress(ebz.decompress(files[0]), level=9))
+        assert files[0] == files[1]
+        assert decoded[0] == decoded[1]
+
+
 def test_long_streams() -> None:
     rng = np.random.default_rng(5)
     faces = random_triangulation(3000).faces

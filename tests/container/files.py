@@ -60,6 +60,7 @@ def files() -> dict[str, bytes]:
     random = finite.vertices + np.float32(0.1) ** np.arange(3, dtype=np.float32)
     return {
         "everything": ebz.compress(plain),
+        "fast": ebz.compress(plain, level=1),
         "table": ebz.compress(finite, model="stack"),
         "box": ebz.compress(finite, bits=7),
         "step": ebz.compress(finite, max_error=0.01),

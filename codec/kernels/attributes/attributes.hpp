@@ -18,6 +18,7 @@ namespace ebz::attributes {
 enum class Method : uint8_t {
     numbers,  // differences to a prediction
     symbols,  // labels and ids below 2^16: bits in contexts of values
+    fast,     // differences to a prediction, in few operations
 };
 
 // What components have to do with each other.
@@ -48,7 +49,7 @@ struct Coding {
     bool by_area;  // the weights of the faces around
 };
 
-// values: n_components per item; of symbols 0 to 2^16 - 1.
+// values: n_components per item; of symbols 0 to 2^16 - 1.  Nothing where the fast method has no room for one.
 std::vector<uint8_t> encode(const Items& items, const Coding& coding, std::span<const int64_t> values);
 
 // Fills values with what was encoded alike.  Any bytes decode to some values.

@@ -1,0 +1,2 @@
+// Fast attributes for the baseline.
+#include "fast_coder.hpp"
