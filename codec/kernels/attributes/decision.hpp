@@ -11,6 +11,7 @@
 #include "../positions/counter.hpp"
 #include "../positions/lanes.hpp"
 #include "../positions/mixer.hpp"
+#include "curve.hpp"
 
 namespace ebz::attributes {
 
@@ -154,7 +155,7 @@ private:
     std::array<std::vector<Line>, n_contexts> lines_;
     std::array<Line*, n_contexts> line_{};
     positions::Mixer<n_lanes> mixer_;
-    positions::Curve curve_;
+    Curve curve_;
     std::array<std::array<std::array<Counter, n_nodes>, n_value_contexts>, n_candidates> agreement_{};
     std::array<std::array<Counter, n_value_contexts>, n_candidates> hits_{};
     std::array<uint8_t, n_candidates> contexts_{};

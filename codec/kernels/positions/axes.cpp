@@ -180,11 +180,8 @@ void Axes::learn_mirror(size_t d) {
 
 void Axes::set_contexts(size_t turn, Expectation& x) const {
     const size_t d = p_->axes[turn];
-    const auto scaled = [&](double size) {
-        return static_cast<uint32_t>(std::clamp(level_of(size) - 2 * x.shift, 0, 40));
-    };
-    const uint32_t t = static_cast<uint32_t>(turn), axis = static_cast<uint32_t>(d), exact = exactness(d);
-    const uint32_t error = scaled(p_->error[d] + 0.25), spread = scaled(p_->spread[d]);
+    const uint32_t t = static_cast<uint32_t>(turn), axis = static_cast<uint32_t>(d);
+    const auto spread = static_cast<uint32_t>(std::clamp(level_of(p_->spread[d]) - 2 * x.shift, 0, 40));
     const uint32_t first = bucket(nearest_.first, 20), second = nearest_.has_second ? bucket(nearest_.second, 20) : 50;
     const int64_t e = first_residual_ >> x.shift;
     // Which slots of a context are in use depends on where the search for the class begins.
@@ -192,7 +189,6 @@ void Axes::set_contexts(size_t turn, Expectation& x) const {
     x.context = {
         hash(spread, static_cast<uint32_t>(s_->n_parallelograms), 1, start),
         hash(first, second + 256 * axis, 2, start),
-        hash(axis * 64 + error, spread / 2 + 32 * exact, 3, start),
         hash(turn == 0 ? 7 : low_bits(value(p_->axes[0])), low_bits(s_->origin[d]), t, start),
         hash(bucket(e, 2000), bucket(last_residual_ >> x.shift, 2000), t, start),
     };

@@ -41,7 +41,7 @@ public:
     // Logits by the counters of a slot.
     WideLanes opinions(size_t slot) {
         const auto at = [&](size_t i) { return static_cast<int32_t>(line_[i]->counters[slot]); };
-        states_ = WideIntLanes{at(0), at(1), at(2), at(3), at(4), 0, 0, 0};
+        states_ = WideIntLanes{at(0), at(1), at(2), at(3), 0, 0, 0, 0};
         return counter::opinion<WideLanes>(states_);
     }
 
@@ -54,7 +54,7 @@ public:
 
 private:
     static constexpr size_t n = Expectation::n_contexts;
-    static_assert(n == 5, "the lanes of states_");
+    static_assert(n == 4, "the lanes of states_");
 
     // Two cache lines, the slots asked most in the first.
     struct alignas(64) Line {

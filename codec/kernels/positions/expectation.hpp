@@ -8,7 +8,7 @@
 namespace ebz::positions {
 
 struct Expectation {
-    static constexpr size_t n_distributions = 7, n_contexts = 5, n_values = 8;
+    static constexpr size_t n_distributions = 7, n_contexts = 4, n_values = 8;
     static constexpr int max_class = 44;  // coordinates and predictions of magnitude 2^40 stay below
 
     alignas(32) std::array<float, n_distributions + 1> mean;   // the last is not used

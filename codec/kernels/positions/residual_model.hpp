@@ -26,7 +26,7 @@ template <class Coder>
 class ResidualModel {
 public:
     ResidualModel(Coder& coder, size_t n_vertices)
-        : coder_(coder), contexts_(n_vertices), mixer_(n_nodes, n_nodes * 3 * n_levels), curve_(n_nodes * 3) {
+        : coder_(coder), contexts_(n_vertices), mixer_(n_nodes, n_nodes * 3 * n_levels) {
         for (size_t node = 0; node < n_nodes; ++node) {
             mixer_.start(node, initial_weights[std::min(node, initial_weights.size() - 1)]);
         }
@@ -97,15 +97,14 @@ private:
         inputs[0] = counted ? contexts_.opinions(slot) : WideLanes{};
         inputs[1] = odds;
         inputs[2] = values;
-        const size_t set = node * 3 + x_->turn;
-        const float logit = mixer_.mix(inputs, node, set * n_levels + static_cast<size_t>(x_->level));
-        const float p = probability(logit), refined = curve_.refine(logit, set);
-        const int32_t p16 = std::clamp(static_cast<int32_t>((p + 0.35f * (refined - p)) * 65536.0f), 1, 65535);
+        const size_t set = (node * 3 + x_->turn) * n_levels + static_cast<size_t>(x_->level);
+        const float logit = mixer_.mix(inputs, node, set);
+        const float p = probability(logit);
+        const int32_t p16 = std::clamp(static_cast<int32_t>(p * 65536.0f), 1, 65535);
         const bool bit = coder_.bit(answer, static_cast<uint32_t>(p16));
         const float target = bit ? 1.0f : 0.0f;
         n_decisions_ += 1.0f;
         mixer_.update(inputs, (target - p) * rate_);
-        curve_.update(target, 0.02f);
         if (counted) contexts_.learn(slot, bit, static_cast<float>(p16 << 6));
         if (values_.any()) values_.learn(bit, node);
         return bit;
@@ -163,7 +162,6 @@ private:
     Distributions distributions_;
     ExactValues values_;
     Mixer<3> mixer_;
-    Curve curve_;
     float n_decisions_ = 0, rate_ = 0;
 
     // The residual under way: distances a still possible begin at low_.
