@@ -56,7 +56,10 @@ def encode_positions(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,
     """The bytes of 3n lattice values along a surface."""
 
 def decode_positions(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int, method: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
-    """The 3n lattice values."""
+    """The 3n lattice values of another method."""
+
+def decode_positions_fast(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None))]:
+    """The (n, 3) lattice values of the fast method."""
 
 def encode_points(values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[bytes, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
@@ -162,10 +165,16 @@ def to_multiples(coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None
     """The nearest integers to (x - origin) / step."""
 
 @overload
-def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+def from_multiples(multiples: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
 
 @overload
-def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+
+@overload
+def from_multiples(multiples: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+
+@overload
+def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """Fills coordinates with origin + step * integer."""
 
 def number_by_first_use(entries: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_items: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:

@@ -34,6 +34,7 @@ class FloatLattice:
         return np.where(bits < 0, bits ^ _magnitude_mask(coordinates.dtype), bits)
 
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        integers = integers.astype(np.int64, copy=False)
         bits = np.where(integers < 0, integers ^ _magnitude_mask(dtype), integers)
         restored: Floats = bits.astype(f"i{dtype.itemsize}").view(dtype)
         return restored
@@ -162,7 +163,7 @@ def _from_multiples(
     integers: Integers, origin: Origin, step: float, dtype: np.dtype[Any]
 ) -> Floats:
     coordinates = np.empty(integers.shape, dtype)
-    _kernels.from_multiples(integers.reshape(-1), origin, step, coordinates.reshape(-1))
+    _kernels.from_multiples(integers, origin, step, coordinates.reshape(-1))
     return coordinates
 
 

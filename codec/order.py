@@ -197,7 +197,7 @@ class Known:
         output: PolygonCorners | None = None,
     ) -> None:
         self.corners = np.ascontiguousarray(vertex)
-        positions = integers.reshape(-1)
+        positions = np.ascontiguousarray(integers, np.int64).reshape(-1)
         self.arrays = opposite, self.corners, positions
         self.n_vertices, self.n_faces = len(integers), len(vertex) // 3
         self.offsets = None

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels, threads
 from ebz.codec.connectivity import Surface
-from ebz.codec.lattice import FloatLattice, Integers, Points
+from ebz.codec.lattice import FloatLattice, Points
 
 
 class Method(enum.IntEnum):
@@ -46,9 +46,11 @@ def encode(
     return stream, chosen
 
 
-def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> Integers:
-    """(n, 3) coordinates; whatever the bytes are, some come back."""
+def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> npt.NDArray[Any]:
+    """(n, 3) int32 or int64 coordinates; whatever the bytes are, some come back."""
     stream = np.frombuffer(data, np.uint8)
+    if method == Method.FAST:
+        return _kernels.decode_positions_fast(stream, *_arrays(surface), n_vertices)
     values = _kernels.decode_positions(stream, *_arrays(surface), n_vertices, method)
     return values.reshape(-1, 3)
 

@@ -3,6 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/tuple.h>
 
+#include <memory>
 #include <tuple>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "order/permutations.hpp"
 #include "points/octree.hpp"
 #include "polygons/polygons.hpp"
+#include "positions/fast.hpp"
 #include "positions/positions.hpp"
 #include "splits.hpp"
 #include "text.hpp"
@@ -223,6 +225,20 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
     }));
 }
 
+// The memory of the coder itself, whose rows are of four.
+nb::ndarray<nb::numpy, int32_t, nb::ndim<2>> decode_positions_fast(const Input<uint8_t>& bytes,
+                                                                   const Input<int32_t>& opposite,
+                                                                   const Input<int32_t>& vertex, int32_t n_vertices) {
+    using ebz::positions::FastVertex;
+    const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
+    const auto n = static_cast<size_t>(n_vertices);
+    auto vertices = std::make_unique_for_overwrite<FastVertex[]>(n);
+    without_gil([&] { ebz::positions::decode_positions_fast(view(bytes), surface, {vertices.get(), n}); });
+    FastVertex* const owned = vertices.release();
+    nb::capsule owner(owned, [](void* p) noexcept { delete[] static_cast<FastVertex*>(p); });
+    return {owned, {n, 3}, owner, {sizeof(FastVertex) / sizeof(int32_t), 1}};
+}
+
 std::tuple<nb::bytes, Array<int32_t>> encode_points(const Input<int64_t>& values) {
     ebz::points::Encoded encoded = without_gil([&] { return ebz::points::encode(view(values)); });
     return {to_bytes(encoded.bytes), to_numpy(std::move(encoded.order))};
@@ -372,12 +388,18 @@ Array<int64_t> to_multiples(const Input<Float>& coordinates, const Numbers3& ori
     }));
 }
 
-template <class Float>
-void from_multiples(const Input<int64_t>& multiples, const Numbers3& origin, double step,
+template <class Integer>
+using InputRows = nb::ndarray<const Integer, nb::shape<-1, 3>, nb::device::cpu>;
+
+template <class Integer, class Float>
+void from_multiples(const InputRows<Integer>& multiples, const Numbers3& origin, double step,
                     const Output<Float>& coordinates) {
+    if (multiples.stride(1) != 1) throw nb::value_error("the rows of multiples are not contiguous");
     without_gil([&] {
-        const std::span<Float> filled(coordinates.data(), std::min(coordinates.size(), multiples.size()));
-        ebz::from_multiples(view(multiples).first(filled.size()), steps(origin, step), filled);
+        const std::span<Float> filled(coordinates.data(), coordinates.size());
+        const size_t n = std::min(multiples.shape(0), filled.size() / 3);
+        const ebz::Rows<Integer> rows{multiples.data(), n, multiples.stride(0)};
+        ebz::from_multiples(rows, steps(origin, step), filled);
     });
 }
 
@@ -387,7 +409,8 @@ void bind_lattices(nb::module_& m) {
           "The least and the greatest of each axis, infinite where some are not finite.");
     m.def("to_multiples", &to_multiples<Float>, "coordinates"_a, "origin"_a, "step"_a,
           "The nearest integers to (x - origin) / step.");
-    m.def("from_multiples", &from_multiples<Float>, "multiples"_a, "origin"_a, "step"_a, "coordinates"_a,
+    m.def("from_multiples", &from_multiples<int32_t, Float>, "multiples"_a, "origin"_a, "step"_a, "coordinates"_a);
+    m.def("from_multiples", &from_multiples<int64_t, Float>, "multiples"_a, "origin"_a, "step"_a, "coordinates"_a,
           "Fills coordinates with origin + step * integer.");
 }
 
@@ -522,7 +545,9 @@ NB_MODULE(_kernels, m) {
     m.def("encode_positions", &encode_positions, "opposite"_a, "vertex"_a, "n_vertices"_a, "values"_a,
           "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
-          "method"_a, "The 3n lattice values.");
+          "method"_a, "The 3n lattice values of another method.");
+    m.def("decode_positions_fast", &decode_positions_fast, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
+          "The (n, 3) lattice values of the fast method.");
     m.def("encode_points", &encode_points, "values"_a,
           "The bytes of a set of points, 3n lattice values, and where those decoded come from.");
     m.def("decode_points", &decode_points, "data"_a, "n"_a, "The 3n lattice values.");

@@ -79,11 +79,12 @@ void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::s
     }
 }
 
-template <class Float>
-void from_multiples(std::span<const int64_t> multiples, const Steps& steps, std::span<Float> coordinates) {
-    for (size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+template <class Integer, class Float>
+void from_multiples(const Rows<Integer>& multiples, const Steps& steps, std::span<Float> coordinates) {
+    const Integer* row = multiples.first;
+    for (size_t i = 0; i < 3 * multiples.n; i += 3, row += multiples.stride) {
         for (size_t axis = 0; axis < 3; ++axis) {
-            const double x = steps.origin[axis] + static_cast<double>(multiples[i + axis]) * steps.step;
+            const double x = steps.origin[axis] + static_cast<double>(row[axis]) * steps.step;
             coordinates[i + axis] = static_cast<Float>(x);
         }
     }
@@ -93,8 +94,10 @@ template std::array<double, 6> bounds(std::span<const float>);
 template std::array<double, 6> bounds(std::span<const double>);
 template void to_multiples(std::span<const float>, const Steps&, std::span<int64_t>);
 template void to_multiples(std::span<const double>, const Steps&, std::span<int64_t>);
-template void from_multiples(std::span<const int64_t>, const Steps&, std::span<float>);
-template void from_multiples(std::span<const int64_t>, const Steps&, std::span<double>);
+template void from_multiples(const Rows<int32_t>&, const Steps&, std::span<float>);
+template void from_multiples(const Rows<int32_t>&, const Steps&, std::span<double>);
+template void from_multiples(const Rows<int64_t>&, const Steps&, std::span<float>);
+template void from_multiples(const Rows<int64_t>&, const Steps&, std::span<double>);
 template int decimal_digits(std::span<const float>, int, size_t);
 template int decimal_digits(std::span<const double>, int, size_t);
 

@@ -1,8 +1,8 @@
 // Which decimal lattice the coordinates of a mesh lie on.
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -30,7 +30,16 @@ struct Steps {
 template <class Float>
 void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::span<int64_t> multiples);
 
-template <class Float>
-void from_multiples(std::span<const int64_t> multiples, const Steps& steps, std::span<Float> coordinates);
+// Rows of three, at any distance.
+template <class Integer>
+struct Rows {
+    const Integer* first;
+    size_t n;
+    int64_t stride;
+};
+
+// coordinates: 3 per row.
+template <class Integer, class Float>
+void from_multiples(const Rows<Integer>& multiples, const Steps& steps, std::span<Float> coordinates);
 
 }  // namespace ebz

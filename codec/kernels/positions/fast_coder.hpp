@@ -23,12 +23,6 @@
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-// A vertex and the half-octaves of its residual.
-struct FastVertex {
-    std::array<uint32_t, 3> position;
-    Sizes sizes;
-};
-
 template <class Coder>
 class FastCoder {
 public:
@@ -119,7 +113,8 @@ void code_positions_fast(Coder& coder, const Surface& mesh, std::span<FastVertex
 }
 
 std::vector<uint8_t> encode_fast(const Surface& mesh, std::span<const int64_t> values) {
-    std::vector<FastVertex> vertices(values.size() / 3);
+    const size_t n = values.size() / 3;
+    const auto vertices = std::make_unique_for_overwrite<FastVertex[]>(n);
     bool fits = true;
     for (size_t i = 0; i < values.size(); ++i) {
         const auto value = static_cast<int32_t>(values[i]);
@@ -128,15 +123,13 @@ std::vector<uint8_t> encode_fast(const Surface& mesh, std::span<const int64_t> v
     }
     if (!fits) return {};
     TwoPartEncoder coder;
-    code_positions_fast(coder, mesh, vertices);
+    code_positions_fast(coder, mesh, {vertices.get(), n});
     return coder.finish();
 }
 
-void decode_fast(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
-    std::vector<FastVertex> vertices(values.size() / 3);
+void decode_fast(std::span<const uint8_t> bytes, const Surface& mesh, std::span<FastVertex> vertices) {
     TwoPartDecoder coder(bytes);
     code_positions_fast(coder, mesh, vertices);
-    for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int32_t>(vertices[i / 3].position[i % 3]);
 }
 
 }  // namespace EBZ_INSTRUCTIONS

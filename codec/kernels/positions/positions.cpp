@@ -39,7 +39,6 @@ std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> val
 
 void decode(std::span<const uint8_t> bytes, const Surface& surface, Method method, std::span<int64_t> values) {
     switch (method) {
-        case Method::fast: return decode_positions_fast(bytes, surface, values);
         case Method::medium: return decode_positions_medium(bytes, surface, values);
         case Method::light: return decode_positions_light(bytes, surface, values);
         default: break;
