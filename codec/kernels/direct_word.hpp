@@ -26,7 +26,10 @@ class DirectRows {
 public:
     using Row = AdaptiveSymbol<8>;
 
-    Row& at(uint32_t degree, uint32_t latest_two) { return rows_[degree << 6 | latest_two]; }
+    // latest: symbols, of which the latest two count.
+    static uint32_t context(uint32_t degree, uint32_t latest) { return degree << 6 | (latest & 63); }
+
+    Row& at(uint32_t context) { return rows_[context]; }
 
     static DirectRows initial() {
         static const DirectRows rows = from_prior();
@@ -37,7 +40,7 @@ private:
     static DirectRows from_prior() {
         DirectRows rows;
         for (uint32_t degree = 0; degree <= max_degree; ++degree)
-            for (uint32_t latest = 0; latest < 64; ++latest) rows.at(degree, latest) = Row(shares(degree, latest));
+            for (uint32_t latest = 0; latest < 64; ++latest) rows.at(context(degree, latest)) = Row(shares(degree, latest));
         return rows;
     }
 
@@ -126,12 +129,12 @@ public:
     Reverse run() {
         Index position = header_.n_symbols - 1;
         const Index n_coded = header_.n_symbols - std::max<Index>(header_.n_single, 1);
-        for (; position >= 0 && position >= n_coded; --position) apply(position, E, none);
+        uint32_t context = 0;
+        for (; position >= 0 && position >= n_coded; --position) context = apply(context, position, E, none);
         for (; position >= 0; --position) {
-            DirectRows::Row& row = rows_.at(reverse_.edge(reverse_.gate()).degree, latest_);
-            coder_.symbol(row, static_cast<Symbol>(symbols_[position]), [&](auto symbol) {
+            coder_.symbol(rows_.at(context), static_cast<Symbol>(symbols_[position]), [&](auto symbol) {
                 const bool may_be_special = symbol == S && special_coder_.any_left();
-                apply(position, symbol, may_be_special ? special(position) : none);
+                context = apply(context, position, symbol, may_be_special ? special(position) : none);
             });
         }
         if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
@@ -139,11 +142,12 @@ public:
     }
 
 private:
-    void apply(Index position, Symbol symbol, int64_t meets) {
+    // The context of the next symbol.
+    [[gnu::always_inline]] uint32_t apply(uint32_t context, Index position, Symbol symbol, int64_t meets) {
         if (Coder::encoding && symbols_[position] != symbol) throw Corrupt("no word of Edgebreaker's");
         symbols_[position] = symbol;
-        reverse_.apply(symbol, meets);
-        latest_ = (latest_ << 3 | (symbol + 1u)) & 63;
+        const uint32_t degree = reverse_.apply(symbol, meets);
+        return DirectRows::context(degree, context << 3 | (symbol + 1u));
     }
 
     int64_t special(Index position) {
@@ -162,7 +166,6 @@ private:
     SpecialCoder special_coder_;
     SpecialsReversed known_specials_;
     DirectRows rows_ = DirectRows::initial();
-    uint32_t latest_ = 0;
 };
 
 }  // namespace ebz

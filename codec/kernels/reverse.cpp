@@ -32,7 +32,7 @@ void Reverse::unite(Index a, Index b) {
     same_as_[std::max(a, b)] = std::min(a, b);
 }
 
-Index Reverse::split(int64_t meets) {
+Reverse::Gate Reverse::split(int64_t meets) {
     const Index n = top();
     if (meets != none) return splice(n, edge_met(meets));
     if (stack_.size() < 2) throw Corrupt("the word has an S that lacks its left loop");
@@ -41,7 +41,7 @@ Index Reverse::split(int64_t meets) {
 }
 
 // Joins two loops, or splits one in two, depending on where the two edges are.
-Index Reverse::splice(Index n, Index m) {
+Reverse::Gate Reverse::splice(Index n, Index m) {
     LoopEdge& gate = edges_[n];
     LoopEdge& met = edges_[m];  // becomes the gate
     // A loop keeps two edges at least.
@@ -64,7 +64,7 @@ Index Reverse::splice(Index n, Index m) {
     edges_[beyond].previous = last;
     lie_on_loop(h, m);
     release(n);
-    return m;
+    return {m, met.degree};
 }
 
 Index Reverse::edge_met(int64_t meets) const {

@@ -33,8 +33,8 @@ public:
     Reverse(Index n_symbols, Index n_closed, Index n_single, PieceKind kind = PieceKind::triangles);
 
     // One symbol, at a position that falls by one from call to call; meets is that of SpecialS, none
-    // for all others.
-    void apply(Symbol symbol, int64_t meets);
+    // for all others.  Returns the degree at the gate, which so need not be read again.
+    uint8_t apply(Symbol symbol, int64_t meets);
 
     // The edge of the top loop's gate is a diagonal, which degrees do not count.
     void uncount_gate();
@@ -61,12 +61,18 @@ private:
         Index front;  // the position of the latest symbol: in the end, of the component's first
     };
 
-    Index end();
-    Index right();
-    Index left();
-    Index close();
-    Index split(int64_t meets);
-    Index splice(Index n, Index met);
+    // A gate, and the degree of the vertex where it starts.
+    struct Gate {
+        Index edge;
+        uint8_t degree;
+    };
+
+    Gate end();
+    Gate right();
+    Gate left();
+    Gate close();
+    Gate split(int64_t meets);
+    Gate splice(Index n, Index met);
     Index top() const;
     Index take();
     void release(Index e);
@@ -76,7 +82,10 @@ private:
     void match(Index h, const LoopEdge& edge);
     void lie_on_loop(Index h, Index e) { opposite_[h] = ~e; }
     void set_corners(Index a, Index b, Index c);
-    static void add_edge(LoopEdge& edge) { edge.degree += edge.degree < max_degree; }
+    static uint8_t add_edge(LoopEdge& edge) {
+        const uint8_t degree = edge.degree;
+        return edge.degree = static_cast<uint8_t>(degree + (degree < max_degree));
+    }
     static void add_edges(LoopEdge& edge, uint8_t n) {
         edge.degree = std::min<uint8_t>(edge.degree + n, max_degree);
     }
@@ -102,9 +111,9 @@ private:
 };
 
 // Once per triangle: inline.
-[[gnu::always_inline]] inline void Reverse::apply(Symbol symbol, int64_t meets) {
+[[gnu::always_inline]] inline uint8_t Reverse::apply(Symbol symbol, int64_t meets) {
     --triangle_;
-    Index gate;
+    Gate gate;
     switch (symbol) {
         case C: gate = close(); break;
         case L: gate = left(); break;
@@ -112,7 +121,8 @@ private:
         case S: gate = split(meets); break;
         default: gate = end();
     }
-    stack_.back() = {gate, triangle_ - n_closed_};
+    stack_.back() = {gate.edge, triangle_ - n_closed_};
+    return gate.degree;
 }
 
 inline Index Reverse::top() const {
@@ -151,7 +161,7 @@ inline void Reverse::set_corners(Index a, Index b, Index c) {
     corners[2] = c;
 }
 
-inline Index Reverse::end() {
+inline Reverse::Gate Reverse::end() {
     const Index g = take(), r = take(), l = take(), h = 3 * triangle_;
     const Index a = new_vertex(), b = new_vertex(), c = new_vertex();
     edges_[g] = {r, l, h, a, 2, 8};
@@ -162,10 +172,10 @@ inline Index Reverse::end() {
     lie_on_loop(h + 2, l);
     set_corners(a, b, c);
     stack_.push_back({});
-    return g;
+    return {g, 2};
 }
 
-[[gnu::always_inline]] inline Index Reverse::right() {
+[[gnu::always_inline]] inline Reverse::Gate Reverse::right() {
     const Index n = top(), r = take(), h = 3 * triangle_;
     LoopEdge& gate = edges_[n];
     LoopEdge& after = edges_[gate.next];
@@ -175,14 +185,14 @@ inline Index Reverse::end() {
     edges_[r] = {gate.next, n, h + 1, tip, 2, 8};
     gate.half_edge = h;
     gate.next = after.previous = r;
-    add_edge(gate);
+    const uint8_t degree = add_edge(gate);
     add_edge(after);
     lie_on_loop(h, n);
     lie_on_loop(h + 1, r);
-    return n;
+    return {n, degree};
 }
 
-[[gnu::always_inline]] inline Index Reverse::left() {
+[[gnu::always_inline]] inline Reverse::Gate Reverse::left() {
     const Index n = top(), g = take(), h = 3 * triangle_;
     LoopEdge& gate = edges_[n];  // becomes the left edge
     LoopEdge& after = edges_[gate.next];
@@ -196,10 +206,10 @@ inline Index Reverse::end() {
     add_edge(after);
     lie_on_loop(h + 2, n);
     lie_on_loop(h, g);
-    return g;
+    return {g, 2};
 }
 
-[[gnu::always_inline]] inline Index Reverse::close() {
+[[gnu::always_inline]] inline Reverse::Gate Reverse::close() {
     const Index n = top(), h = 3 * triangle_;
     const LoopEdge& gate = edges_[n];
     const Index m = gate.previous;
@@ -211,7 +221,7 @@ inline Index Reverse::end() {
     match(h + 1, gate);
     match(h + 2, met);
     const int excess = gate.degree - (kind_ == PieceKind::triangles ? 6 : 4);
-    add_edge(met);
+    const uint8_t degree = add_edge(met);
     add_edge(after);
     add_excess(met, excess);
     add_excess(after, excess);
@@ -220,7 +230,7 @@ inline Index Reverse::end() {
     after.previous = m;
     lie_on_loop(h, m);
     release(n);
-    return m;
+    return {m, degree};
 }
 
 }  // namespace ebz
