@@ -30,7 +30,7 @@ class MediumCoder {
 public:
     // sites: as many as the surface has vertices.
     MediumCoder(Coder& coder, const Surface& mesh, MediumSite* sites)
-        : coder_(coder), mesh_(mesh), opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), order_(mesh), sites_(sites) {}
+        : coder_(coder), mesh_(mesh), vertex_(mesh.vertex.data()), order_(mesh), sites_(sites) {}
 
     void run() {
         const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
@@ -47,13 +47,10 @@ private:
             if (order_.known(vertex_[c])) latest_ = sites_[vertex_[c]].at;
             else step_to(vertex_[c], kind);
         }
-        order_.visit_first(face);
-        for (int32_t h; (h = order_.next_gate()) >= 0;) {
-            const int32_t v = vertex_[previous(h)], other = order_.first_gate(v);
-            predict(v, other, h);
-            order_.learn(v);
-            order_.visit_from(h);
-            order_.visit_from(other);
+        order_.enter(face);
+        for (size_t n = batch_.size(); n == batch_.size();) {
+            n = order_.next_vertices(batch_);
+            for (size_t i = 0; i < n; ++i) predict(batch_[i]);
         }
     }
 
@@ -67,9 +64,9 @@ private:
         order_.learn(v);
     }
 
-    // g and h: gates of v, the same if there is but one.
-    void predict(int32_t v, int32_t g, int32_t h) {
-        const MediumSite &a = start(g), &b = end(g), &o = apex(g), &c = start(h), &d = end(h), &p = apex(h);
+    void predict(const PredictedVertex& from) {
+        const MediumSite &a = sites_[from.a], &b = sites_[from.b], &o = sites_[from.o];
+        const MediumSite &c = sites_[from.c], &d = sites_[from.d], &p = sites_[from.p];
         const UintLanes first = a.at + b.at - o.at, apart = c.at + d.at - p.at - first;
         const UintLanes plain = first + as_uints(as_ints(apart) >> 1);
         const Lanes off = as_floats(apart);
@@ -77,22 +74,18 @@ private:
         const IntLanes is_plain = lead_ <= 0.0f;
         const UintLanes base = choose(is_plain, plain, first + as_uints(rounded(smooth)));
         const Lanes size = ((magnitudes(a.residual) + magnitudes(b.residual)) + (magnitudes(c.residual) + magnitudes(d.residual))) * 0.25f;
-        const Lanes spread = g == h ? size : magnitudes(off);
+        const Lanes spread = from.two ? magnitudes(off) : size;
         const Lanes fraction = (smooth - as_floats(base - first)) * (is_plain ? splat<Lanes>(2.0f) : splat<Lanes>(4.0f));
         const UintLanes near = nearer(nearer(a.at - base, b.at - base), nearer(c.at - base, d.at - base));
         const Lanes drift = ((a.residual + b.residual) + (c.residual + d.residual)) * 0.25f;
 
-        MediumSite& site = sites_[v];
-        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, g == h ? 0 : 1}, residual(site, base));
+        MediumSite& site = sites_[from.vertex];
+        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, from.two}, residual(site, base));
         const UintLanes at = base + e;
         site = {at, as_floats(e)};
         const Lanes from_plain = magnitudes(as_floats(at - plain)), from_smooth = magnitudes(as_floats(at - first) - smooth);
         lead_ += (bit_patterns(from_plain + 1.0f) - bit_patterns(from_smooth + 1.0f) - lead_) * 0.01f;
     }
-
-    const MediumSite& start(int32_t gate) const { return sites_[vertex_[gate]]; }
-    const MediumSite& end(int32_t gate) const { return sites_[vertex_[next(gate)]]; }
-    const MediumSite& apex(int32_t gate) const { return sites_[vertex_[previous(opposite_[gate])]]; }
 
     // Sites to be decoded hold nothing yet.
     static UintLanes residual(const MediumSite& site, UintLanes base) {
@@ -112,8 +105,9 @@ private:
 
     Coder& coder_;
     const Surface& mesh_;
-    const int32_t *opposite_, *vertex_;
+    const int32_t* vertex_;
     GateOrder order_;
+    std::array<PredictedVertex, 256> batch_;  // found together, so that order and coding do not wait for each other
     MediumSite* sites_;
     UintLanes latest_{};
     std::array<Lanes, 2> steps_{};

@@ -6,11 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "surface.hpp"
 
 namespace ebz::positions {
+
+// A vertex to be coded, and the vertices of the parallelograms that predict it.
+struct PredictedVertex {
+    int32_t vertex;
+    int32_t a, b, o;  // across the edge from a to b from o
+    int32_t c, d, p;  // the same of a second one, of the first again if there is none
+    int32_t two;      // 1 if there is, else 0
+};
 
 // A half-edge of a face that is not visited is a gate once the face across is; its tip is the face's third corner.
 class GateOrder {
@@ -24,19 +33,40 @@ public:
     void learn(int32_t v) { states_[static_cast<size_t>(v)] = is_known; }
     bool visited(int32_t face) const { return visited_[static_cast<size_t>(face)] != 0; }
 
-    // The first gate that had v, which has been met, as its tip.
-    int32_t first_gate(int32_t v) const { return gate_[static_cast<size_t>(v)]; }
-
-    // A face whose corners are known, and those beyond its edges of which the same holds.
-    void visit_from(int32_t h) {
-        visit(h);
-        while (ready_.end > 0) visit(ready_.items[--ready_.end]);
-    }
-
-    void visit_first(int32_t face) {
+    // The first face of a component, whose corners are known.
+    void enter(int32_t face) {
         cross(3 * face);
         visit_from(3 * face);
     }
+
+    // Finds the next vertices, which are known from then on, as many as there is room for unless they are all.
+    size_t next_vertices(std::span<PredictedVertex> found) {
+        size_t n = 0;
+        for (int32_t h; n < found.size() && (h = next_gate()) >= 0; ++n) {
+            const int32_t v = vertex_[previous(h)], g = gate_[static_cast<size_t>(v)];
+            found[n] = {v, vertex_[g], vertex_[next(g)], apex(g), vertex_[h], vertex_[next(h)], apex(h), g == h ? 0 : 1};
+            learn(v);
+            visit_from(h);
+            visit_from(g);
+        }
+        return n;
+    }
+
+private:
+    static constexpr uint8_t is_met = 1, is_known = 2;
+    static constexpr size_t ahead = 8;  // gates that are prefetched
+
+    // Each half-edge enters one of them, once.
+    struct Queue {
+        std::unique_ptr<int32_t[]> items;
+        size_t begin = 0, end = 0;
+
+        explicit Queue(size_t capacity) : items(std::make_unique_for_overwrite<int32_t[]>(capacity)) {}
+        bool empty() const { return begin == end; }
+        void push(int32_t h) { items[end++] = h; }
+    };
+
+    int32_t apex(int32_t gate) const { return vertex_[previous(opposite_[gate])]; }
 
     // A gate whose tip is unknown, -1 if there is none.
     int32_t next_gate() {
@@ -54,19 +84,11 @@ public:
         }
     }
 
-private:
-    static constexpr uint8_t is_met = 1, is_known = 2;
-    static constexpr size_t ahead = 8;  // gates that are prefetched
-
-    // Each half-edge enters one of them, once.
-    struct Queue {
-        std::unique_ptr<int32_t[]> items;
-        size_t begin = 0, end = 0;
-
-        explicit Queue(size_t capacity) : items(std::make_unique_for_overwrite<int32_t[]>(capacity)) {}
-        bool empty() const { return begin == end; }
-        void push(int32_t h) { items[end++] = h; }
-    };
+    // A face whose corners are known, and those beyond its edges of which the same holds.
+    void visit_from(int32_t h) {
+        visit(h);
+        while (ready_.end > 0) visit(ready_.items[--ready_.end]);
+    }
 
     void visit(int32_t h) {
         uint8_t& mark = visited_[static_cast<size_t>(h / 3)];
@@ -90,7 +112,7 @@ private:
     const int32_t *opposite_, *vertex_;
     std::vector<uint8_t> states_;   // of vertices
     std::vector<uint8_t> visited_;  // of faces
-    std::unique_ptr<int32_t[]> gate_;
+    std::unique_ptr<int32_t[]> gate_;  // the first one of each tip
     Queue first_, second_;  // the first gate of a tip, and the others
     Queue ready_;           // a stack of gates whose tip is known
 };
