@@ -41,6 +41,8 @@ public:
     }
 
 private:
+    static constexpr size_t ahead = 8;  // sites that are prefetched
+
     void component(int32_t face) {
         size_t kind = 0;
         for (int32_t c = 3 * face; c < 3 * face + 3; ++c, kind = 1) {
@@ -50,7 +52,10 @@ private:
         order_.enter(face);
         for (size_t n = batch_.size(); n == batch_.size();) {
             n = order_.next_vertices(batch_);
-            for (size_t i = 0; i < n; ++i) predict(batch_[i]);
+            for (size_t i = 0; i < n; ++i) {
+                if (i + ahead < n) __builtin_prefetch(&sites_[batch_[i + ahead].vertex], 1);
+                predict(batch_[i]);
+            }
         }
     }
 
