@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ebz.codec import _kernels
+from ebz.codec import _kernels, positions
 from ebz.codec.connectivity import Surface, traverse
 from ebz.codec.positions import Method
 from ebz.codec.sample import glued_grid
@@ -49,8 +49,7 @@ def encode(surface: Surface, n: int, coordinates: Values, method: Method) -> byt
 
 
 def decode(data: bytes, surface: Surface, n: int, method: Method) -> Values:
-    stream = np.frombuffer(data, np.uint8)
-    return _kernels.decode_positions(stream, surface.opposite, surface.vertex, n, method)
+    return positions.decode(data, surface, n, method).reshape(-1)
 
 
 @settings(deadline=None)
