@@ -25,7 +25,7 @@ from ebz.codec.lattice import Integers
 
 EXACT = AttributePrecision()
 SPACES = {4: 1, 8: 2}  # of floats by their bits; halves are coded as the integers they are
-# Labels of these take little time, and numbers say little about them.
+# So many labels take little time, and numbers say little about them.
 FEW = 64
 
 
@@ -74,8 +74,9 @@ def encode_bundle(
     lattice = lattice_of(flat, precision.of(bundle.names[0])) or lattices.fit(flat)
     plan, integers = specials.integers(flat, lattice)
     plans = list(_plans(plan, integers, flat, items, array))
-    coded = _encode_all(_fast(plans, array), items, array) if fast else []
-    coded = coded or _encode_all(plans, items, array)
+    coded = _encode_all(_fast(plans, array), items, array)
+    slow = [pair for pair in plans if not (fast and coded) or _has_few_labels(pair[0])]
+    coded += _encode_all(slow, items, array)
     best, data = min(coded, key=lambda pair: len(pair[1]) + len(pair[0].labels))
     return replace(array, plan=best, data=data)
 
@@ -111,12 +112,15 @@ def _plans(
 
 
 def _fast(plans: list[tuple[Plan, Integers]], array: EncodedArray) -> list[tuple[Plan, Integers]]:
-    """The plans that take few operations a value, or few labels; none for bits of floats."""
+    """The plan that takes few operations a value; none for bits of floats."""
     plain, integers = plans[0]
     if _is_in_floats(plain, array):
         return []
-    few = [plan for plan in plans if plan[0].method == Method.SYMBOLS and plan[0].n_labels <= FEW]
-    return [(replace(plain, method=Method.FAST), integers), *few]
+    return [(replace(plain, method=Method.FAST), integers)]
+
+
+def _has_few_labels(plan: Plan) -> bool:
+    return plan.method == Method.SYMBOLS and plan.n_labels <= FEW
 
 
 def _encode_all(

@@ -40,7 +40,7 @@ public:
         : log2_lines_(std::clamp(static_cast<int>(std::bit_width(n_values)), 9, 14)),
           mixer_(n_nodes, n_nodes * n_levels * 3),
           curve_(n_nodes * 3) {
-        constexpr float counted = 0.2f, spread = 0.16f, exact = 0.3f;
+        constexpr float counted = 0.12f, spread = 0.18f, exact = 0.3f;
         std::array<float, 8 * n_lanes> start{};
         for (size_t i = 0; i < n_contexts; ++i) start[i] = counted;
         for (size_t i = 0; i < n_candidates; ++i) {
