@@ -61,6 +61,9 @@ def decode_positions(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), o
 def decode_positions_fast(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None))]:
     """The (n, 3) lattice values of the fast method."""
 
+def decode_positions_medium(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None))]:
+    """The (n, 3) lattice values of the medium method."""
+
 def encode_points(values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[bytes, Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
     The bytes of a set of points, 3n lattice values, and where those decoded come from.

@@ -51,6 +51,8 @@ def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> np
     stream = np.frombuffer(data, np.uint8)
     if method == Method.FAST:
         return _kernels.decode_positions_fast(stream, *_arrays(surface), n_vertices)
+    if method == Method.MEDIUM:
+        return _kernels.decode_positions_medium(stream, *_arrays(surface), n_vertices)
     values = _kernels.decode_positions(stream, *_arrays(surface), n_vertices, method)
     return values.reshape(-1, 3)
 

@@ -18,6 +18,7 @@
 #include "points/octree.hpp"
 #include "polygons/polygons.hpp"
 #include "positions/fast.hpp"
+#include "positions/medium.hpp"
 #include "positions/positions.hpp"
 #include "splits.hpp"
 #include "text.hpp"
@@ -225,18 +226,18 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
     }));
 }
 
-// The memory of the coder itself, whose rows are of four.
-nb::ndarray<nb::numpy, int32_t, nb::ndim<2>> decode_positions_fast(const Input<uint8_t>& bytes,
-                                                                   const Input<int32_t>& opposite,
-                                                                   const Input<int32_t>& vertex, int32_t n_vertices) {
-    using ebz::positions::FastVertex;
+// The memory of the coder itself: a position begins each of its rows.
+template <class Row, void (*decode)(std::span<const uint8_t>, const ebz::positions::Surface&, std::span<Row>)>
+nb::ndarray<nb::numpy, int32_t, nb::ndim<2>> decode_positions_in_place(const Input<uint8_t>& bytes,
+                                                                       const Input<int32_t>& opposite,
+                                                                       const Input<int32_t>& vertex, int32_t n_vertices) {
     const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
     const auto n = static_cast<size_t>(n_vertices);
-    auto vertices = std::make_unique_for_overwrite<FastVertex[]>(n);
-    without_gil([&] { ebz::positions::decode_positions_fast(view(bytes), surface, {vertices.get(), n}); });
-    FastVertex* const owned = vertices.release();
-    nb::capsule owner(owned, [](void* p) noexcept { delete[] static_cast<FastVertex*>(p); });
-    return {owned, {n, 3}, owner, {sizeof(FastVertex) / sizeof(int32_t), 1}};
+    auto rows = std::make_unique_for_overwrite<Row[]>(n);
+    without_gil([&] { decode(view(bytes), surface, {rows.get(), n}); });
+    Row* const owned = rows.release();
+    nb::capsule owner(owned, [](void* p) noexcept { delete[] static_cast<Row*>(p); });
+    return {owned, {n, 3}, owner, {sizeof(Row) / sizeof(int32_t), 1}};
 }
 
 std::tuple<nb::bytes, Array<int32_t>> encode_points(const Input<int64_t>& values) {
@@ -546,8 +547,12 @@ NB_MODULE(_kernels, m) {
           "method"_a, "The bytes of 3n lattice values along a surface.");
     m.def("decode_positions", &decode_positions, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
           "method"_a, "The 3n lattice values of another method.");
-    m.def("decode_positions_fast", &decode_positions_fast, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a,
-          "The (n, 3) lattice values of the fast method.");
+    m.def("decode_positions_fast",
+          &decode_positions_in_place<ebz::positions::FastVertex, ebz::positions::decode_positions_fast>, "data"_a,
+          "opposite"_a, "vertex"_a, "n_vertices"_a, "The (n, 3) lattice values of the fast method.");
+    m.def("decode_positions_medium",
+          &decode_positions_in_place<ebz::positions::MediumSite, ebz::positions::decode_positions_medium>, "data"_a,
+          "opposite"_a, "vertex"_a, "n_vertices"_a, "The (n, 3) lattice values of the medium method.");
     m.def("encode_points", &encode_points, "values"_a,
           "The bytes of a set of points, 3n lattice values, and where those decoded come from.");
     m.def("decode_points", &decode_points, "data"_a, "n"_a, "The 3n lattice values.");

@@ -1,6 +1,7 @@
 // The medium method, in the versions for several instruction sets that medium_coder.hpp is compiled to.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,13 +11,19 @@
 
 namespace ebz::positions {
 
+// Positions are signed integers modulo 2^32; the fourth of each does not matter.
+struct alignas(32) MediumSite {
+    std::array<uint32_t, 4> position;
+    std::array<float, 4> residual;
+};
+
 inline namespace baseline {
 std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t> values);
-void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values);
+void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<MediumSite> sites);
 }
 inline namespace avx2 {
 std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t> values);
-void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values);
+void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<MediumSite> sites);
 }
 
 // Nothing where a value has more than 32 bits.
@@ -27,11 +34,12 @@ inline std::vector<uint8_t> encode_positions_medium(const Surface& mesh, std::sp
     return baseline::encode_medium(mesh, values);
 }
 
-inline void decode_positions_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
+// sites: as many as the surface has vertices, whatever they hold.
+inline void decode_positions_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<MediumSite> sites) {
 #ifdef EBZ_HAS_AVX2
-    if (use_avx2()) return avx2::decode_medium(bytes, mesh, values);
+    if (use_avx2()) return avx2::decode_medium(bytes, mesh, sites);
 #endif
-    baseline::decode_medium(bytes, mesh, values);
+    baseline::decode_medium(bytes, mesh, sites);
 }
 
 }  // namespace ebz::positions

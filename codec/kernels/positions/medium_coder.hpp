@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,12 +19,6 @@
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
-
-// A vertex and its residual; the fourth lanes do not matter.
-struct alignas(32) MediumSite {
-    UintLanes at;
-    Lanes residual;
-};
 
 template <class Coder>
 class MediumCoder {
@@ -46,7 +41,7 @@ private:
     void component(int32_t face) {
         size_t kind = 0;
         for (int32_t c = 3 * face; c < 3 * face + 3; ++c, kind = 1) {
-            if (order_.known(vertex_[c])) latest_ = sites_[vertex_[c]].at;
+            if (order_.known(vertex_[c])) latest_ = at(vertex_[c]);
             else step_to(vertex_[c], kind);
         }
         order_.enter(face);
@@ -61,41 +56,45 @@ private:
 
     // From the vertex before, without a parallelogram.
     void step_to(int32_t v, size_t kind) {
-        MediumSite& site = sites_[v];
-        const UintLanes e = model_.code_step(coder_, kind, steps_[kind], residual(site, latest_));
-        site = {latest_ + e, Lanes{}};
-        latest_ = site.at;
+        const UintLanes e = model_.code_step(coder_, kind, steps_[kind], to_be_coded(v, latest_));
+        latest_ += e;
+        settle(v, latest_, Lanes{});
         steps_[kind] = magnitudes(as_floats(e));
         order_.learn(v);
     }
 
     void predict(const PredictedVertex& from) {
-        const MediumSite &a = sites_[from.a], &b = sites_[from.b], &o = sites_[from.o];
-        const MediumSite &c = sites_[from.c], &d = sites_[from.d], &p = sites_[from.p];
-        const UintLanes first = a.at + b.at - o.at, apart = c.at + d.at - p.at - first;
+        const UintLanes a = at(from.a), b = at(from.b), c = at(from.c), d = at(from.d);
+        const UintLanes first = a + b - at(from.o), apart = c + d - at(from.p) - first;
         const UintLanes plain = first + as_uints(as_ints(apart) >> 1);
         const Lanes off = as_floats(apart);
-        const Lanes smooth = off * 0.3f + as_floats(a.at + b.at + c.at + d.at - (first << 2)) * 0.1f;  // within 31 bits
+        const Lanes smooth = off * 0.3f + as_floats(a + b + c + d - (first << 2)) * 0.1f;  // within 31 bits
         const IntLanes is_plain = lead_ <= 0.0f;
         const UintLanes base = choose(is_plain, plain, first + as_uints(rounded(smooth)));
-        const Lanes size = ((magnitudes(a.residual) + magnitudes(b.residual)) + (magnitudes(c.residual) + magnitudes(d.residual))) * 0.25f;
+        const Lanes ra = residual(from.a), rb = residual(from.b), rc = residual(from.c), rd = residual(from.d);
+        const Lanes size = ((magnitudes(ra) + magnitudes(rb)) + (magnitudes(rc) + magnitudes(rd))) * 0.25f;
         const Lanes spread = from.two ? magnitudes(off) : size;
         const Lanes fraction = (smooth - as_floats(base - first)) * (is_plain ? splat<Lanes>(2.0f) : splat<Lanes>(4.0f));
-        const UintLanes near = nearer(nearer(a.at - base, b.at - base), nearer(c.at - base, d.at - base));
-        const Lanes drift = ((a.residual + b.residual) + (c.residual + d.residual)) * 0.25f;
-
-        MediumSite& site = sites_[from.vertex];
-        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, from.two}, residual(site, base));
-        const UintLanes at = base + e;
-        site = {at, as_floats(e)};
-        const Lanes from_plain = magnitudes(as_floats(at - plain)), from_smooth = magnitudes(as_floats(at - first) - smooth);
+        const UintLanes near = nearer(nearer(a - base, b - base), nearer(c - base, d - base));
+        const Lanes drift = ((ra + rb) + (rc + rd)) * 0.25f;
+        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, from.two}, to_be_coded(from.vertex, base));
+        const UintLanes x = base + e;
+        settle(from.vertex, x, as_floats(e));
+        const Lanes from_plain = magnitudes(as_floats(x - plain)), from_smooth = magnitudes(as_floats(x - first) - smooth);
         lead_ += (bit_patterns(from_plain + 1.0f) - bit_patterns(from_smooth + 1.0f) - lead_) * 0.01f;
     }
 
+    UintLanes at(int32_t v) const { return std::bit_cast<UintLanes>(sites_[v].position); }
+    Lanes residual(int32_t v) const { return std::bit_cast<Lanes>(sites_[v].residual); }
+
     // Sites to be decoded hold nothing yet.
-    static UintLanes residual(const MediumSite& site, UintLanes base) {
-        if constexpr (Coder::encoding) return site.at - base;
+    UintLanes to_be_coded(int32_t v, UintLanes base) const {
+        if constexpr (Coder::encoding) return at(v) - base;
         else return UintLanes{};
+    }
+
+    void settle(int32_t v, UintLanes position, Lanes residual) {
+        sites_[v] = {std::bit_cast<std::array<uint32_t, 4>>(position), std::bit_cast<std::array<float, 4>>(residual)};
     }
 
     static UintLanes choose(IntLanes mask, UintLanes x, UintLanes y) { return (x & as_uints(mask)) | (y & ~as_uints(mask)); }
@@ -132,9 +131,9 @@ std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t>
         for (size_t d = 0; d < 3; ++d) {
             const auto value = static_cast<int32_t>(values[3 * v + d]);
             fits &= value == values[3 * v + d];
-            sites[v].at[d] = static_cast<uint32_t>(value);
+            sites[v].position[d] = static_cast<uint32_t>(value);
         }
-        sites[v].at[3] = 0;
+        sites[v].position[3] = 0;
     }
     if (!fits) return {};
     TwoPartEncoder coder;
@@ -142,12 +141,9 @@ std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t>
     return coder.finish();
 }
 
-void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
-    const auto sites = std::make_unique_for_overwrite<MediumSite[]>(values.size() / 3);
+void decode_medium(std::span<const uint8_t> bytes, const Surface& mesh, std::span<MediumSite> sites) {
     TwoPartDecoder coder(bytes);
-    code_positions_medium(coder, mesh, sites.get());
-    for (size_t v = 0; v < values.size() / 3; ++v)
-        for (size_t d = 0; d < 3; ++d) values[3 * v + d] = static_cast<int32_t>(sites[v].at[d]);
+    code_positions_medium(coder, mesh, sites.data());
 }
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -38,11 +38,7 @@ std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> val
 }
 
 void decode(std::span<const uint8_t> bytes, const Surface& surface, Method method, std::span<int64_t> values) {
-    switch (method) {
-        case Method::medium: return decode_positions_medium(bytes, surface, values);
-        case Method::light: return decode_positions_light(bytes, surface, values);
-        default: break;
-    }
+    if (method == Method::light) return decode_positions_light(bytes, surface, values);
     RangeDecoder coder(bytes);
     code(coder, surface, method, values);
 }

@@ -28,7 +28,7 @@ enum class Method : uint8_t {
 // where a value has more than 32 bits.
 std::vector<uint8_t> encode(const Surface& surface, std::span<const int64_t> values, Method method);
 
-// Fills values with what was encoded by the same method, which is not fast (fast.hpp).  Any bytes decode to
+// Fills values with what was encoded by the same method, neither fast nor medium (fast.hpp, medium.hpp).  Any bytes decode to
 // some positions.
 void decode(std::span<const uint8_t> bytes, const Surface& surface, Method method, std::span<int64_t> values);
 
