@@ -22,6 +22,7 @@ struct PredictedVertex {
 };
 
 // A half-edge of a face that is not visited is a gate once the face across is; its tip is the face's third corner.
+// Opposite half-edges have the same ends: a face is visited when all its corners are known.
 class GateOrder {
 public:
     explicit GateOrder(const Surface& mesh)
