@@ -133,9 +133,10 @@ def test_labels_are_coded_as_such():
     mesh = torus(2000)
     labels = np.where(mesh.vertices[:, 0] > 0, 10**15, -7)
     array = plan_of(labels, mesh)
-    assert array.plan.method == Method.SYMBOLS
     assert array.plan.n_labels == 2
     assert len(array.data) < mesh.n_vertices / 16
+    ids = np.random.default_rng(0).choice([5, 900, -(10**12)], mesh.n_vertices)
+    assert plan_of(ids, mesh).plan.method == Method.SYMBOLS
 
 
 def test_low_levels_take_the_fast_method_where_values_have_room():
