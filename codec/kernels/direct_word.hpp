@@ -152,9 +152,8 @@ private:
 
     int64_t special(Index position) {
         int64_t meets = Coder::encoding ? known_specials_.take(position) : none;
-        if (reverse_.n_loops() > 1 && !special_coder_.code_kind(coder_, meets != none)) return none;
-        meets = special_coder_.code_meets(coder_, reverse_, position, meets);
-        if (!Coder::encoding) specials_.push_back({position, meets});
+        meets = special_coder_.code(coder_, reverse_, position, meets);
+        if (!Coder::encoding && meets != none) specials_.push_back({position, meets});
         return meets;
     }
 

@@ -43,24 +43,13 @@ public:
 
     bool any_left() const { return n_left_ > 0; }
 
-    // Whether an S that could also be ordinary is special.
+    // What the S at `position` meets, none if it is not special; decoders pass anything.
     template <class Coder>
-    bool code_kind(Coder& coder, bool special) { return special_.code(coder, special); }
-
-    // What the S at `position` meets; decoders pass anything.
-    template <class Coder>
-    int64_t code_meets(Coder& coder, const Reverse& reverse, Index position, int64_t meets) {
+    int64_t code(Coder& coder, const Reverse& reverse, Index position, int64_t meets) {
+        if (n_left_ == 0) return none;
+        if (reverse.n_loops() > 1 && !special_.code(coder, meets != none)) return none;
         --n_left_;
-        Path path;
-        if constexpr (Coder::encoding) path = find(reverse, reverse.edge_met(meets));
-        if (!on_loop_.code(coder, path.n_steps > 0)) return code_far(coder, position, meets);
-        path.to_left = to_left_.code(coder, path.to_left);
-        const uint64_t more_steps = static_cast<uint64_t>(path.n_steps - least_steps);
-        const int64_t n_steps = static_cast<int64_t>(steps_[path.to_left].code(coder, more_steps)) + least_steps;
-        // Walking takes linear time in all.
-        if (n_steps > steps_left_) throw Corrupt("special S walk too far along their loops");
-        steps_left_ -= n_steps;
-        return reverse.met_along_loop(n_steps, path.to_left);
+        return code_meets(coder, reverse, position, meets);
     }
 
 private:
@@ -88,6 +77,20 @@ private:
         }
         search_left_ = 0;
         return {};
+    }
+
+    template <class Coder>
+    int64_t code_meets(Coder& coder, const Reverse& reverse, Index position, int64_t meets) {
+        Path path;
+        if constexpr (Coder::encoding) path = find(reverse, reverse.edge_met(meets));
+        if (!on_loop_.code(coder, path.n_steps > 0)) return code_far(coder, position, meets);
+        path.to_left = to_left_.code(coder, path.to_left);
+        const uint64_t more_steps = static_cast<uint64_t>(path.n_steps - least_steps);
+        const int64_t n_steps = static_cast<int64_t>(steps_[path.to_left].code(coder, more_steps)) + least_steps;
+        // Walking takes linear time in all.
+        if (n_steps > steps_left_) throw Corrupt("special S walk too far along their loops");
+        steps_left_ -= n_steps;
+        return reverse.met_along_loop(n_steps, path.to_left);
     }
 
     template <class Coder>

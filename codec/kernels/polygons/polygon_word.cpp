@@ -88,11 +88,9 @@ private:
         view.in_polygon = in_polygon;
         view.can_split |= special_coder_.any_left();
         const Symbol symbol = model_.code(coder_, static_cast<Symbol>(word_.symbols[position]), view);
-        if (symbol != S || !special_coder_.any_left()) return symbol;
-        const bool special = loops_.size() < 2 || special_coder_.code_kind(coder_, meets != none);
-        if (!special) return symbol;
-        meets = special_coder_.code_meets(coder_, reverse_, position, meets);
-        if (!Coder::encoding) word_.specials.push_back({position, meets});
+        if (symbol != S) return symbol;
+        meets = special_coder_.code(coder_, reverse_, position, meets);
+        if (!Coder::encoding && meets != none) word_.specials.push_back({position, meets});
         return symbol;
     }
 
