@@ -53,8 +53,12 @@ public:
         are_told = coder_.raw(are_told, 1) != 0;
         if (!are_told) std::fill(several_.begin(), several_.end(), 1);
         code_several(Coder::encoding ? find_several() : std::vector<uint8_t>(several_.size()));
-        for (Index h = 0; h < n_corners(); ++h) {
-            if (opposite_[h] > h) edge(h, opposite_[h]);
+        for (Index first = 0; first < n_corners(); first += 3) {
+            // Most triangles have no corner at a point of several vertices.
+            if (!(has_several(first) | has_several(first + 1) | has_several(first + 2))) continue;
+            for (Index h = first; h < first + 3; ++h) {
+                if (opposite_[h] > h) edge(h, opposite_[h]);
+            }
         }
         for (Index c = 0; c < n_corners(); ++c) vertex_[c] = several_[point_[c]] ? of_run(c) : of_point(point_[c]);
     }
@@ -82,9 +86,11 @@ private:
     // Along seams, neighbours have several vertices too.
     void code_several(const std::vector<uint8_t>& truth) {
         bool latest = false;
-        for (Index c = 0; c < n_corners(); ++c) {
+        for (Index c = 0, n_known = 0; c < n_corners(); ++c) {
             const Index p = point_[c];
-            if (several_[p] != unknown) continue;
+            // Points are numbered by first corner.
+            if (p < n_known || several_[p] != unknown) continue;
+            n_known = p + 1;
             const Index beyond = opposite_[next(c)];
             const bool apex = beyond != none && has_several(previous(beyond));
             const int context = has_several(next(c)) + 2 * has_several(previous(c)) + 4 * latest + 8 * apex;
