@@ -2,7 +2,7 @@
 
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ebz.codec.errors import CorruptError, NotEbzError, TruncatedError, VersionError
 from ebz.formats import layout
@@ -12,8 +12,7 @@ MAX_HEAD = 11
 CRC_SIZE = 4
 
 
-@dataclass(frozen=True)
-class Chunk:
+class Chunk(NamedTuple):
     """A chunk of a file; `offset` is that of its type."""
 
     type: bytes

@@ -132,6 +132,7 @@ class Struct(construct.Struct):  # type: ignore[misc]
             value = field._parse(stream, inner, path)
             if name:
                 inner[name] = values[name] = value
+        inner.clear()  # it refers to itself
         return values
 
     def _build(self, values: Any, stream: Any, context: Any, path: str) -> Any:
@@ -139,6 +140,7 @@ class Struct(construct.Struct):  # type: ignore[misc]
         inner.update(values)
         for name, field in self._fields:
             field._build(values.get(name), stream, inner, path)
+        inner.clear()
         return values
 
     @staticmethod
@@ -153,7 +155,8 @@ class Struct(construct.Struct):  # type: ignore[misc]
 LATTICE_KINDS = ("float", "decimal", "box", "step", "grid")
 DTYPE_SIZES = (4, 8)
 
-Float = IfThenElse(this._root.itemsize == 4, Float32l, Float64l)
+# Of the dtype of the coordinates.
+Corner = IfThenElse(this._root.itemsize == 4, Array(3, Float32l), Array(3, Float64l))
 
 Header = Struct(
     "itemsize" / Byte,
@@ -179,9 +182,7 @@ Header = Struct(
         {
             LATTICE_KINDS.index("float"): Pass,
             LATTICE_KINDS.index("decimal"): Struct("digits" / Byte),
-            LATTICE_KINDS.index("box"): Struct(
-                "bits" / Byte, "origin" / Array(3, Float), "side" / Float64l
-            ),
+            LATTICE_KINDS.index("box"): Struct("bits" / Byte, "origin" / Corner, "side" / Float64l),
             LATTICE_KINDS.index("step"): Struct("max_error" / Float64l),
             LATTICE_KINDS.index("grid"): Struct("origin" / Array(3, Float64l), "step" / Float64l),
         },
