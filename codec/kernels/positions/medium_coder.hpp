@@ -77,7 +77,9 @@ private:
         const Lanes fraction = (smooth - as_floats(base - first)) * (is_plain ? splat<Lanes>(2.0f) : splat<Lanes>(4.0f));
         const UintLanes near = nearer(nearer(a - base, b - base), nearer(c - base, d - base));
         const Lanes drift = ((ra + rb) + (rc + rd)) * 0.25f;
-        const UintLanes e = model_.code(coder_, {size * 0.6f + spread * 0.25f, spread, drift, fraction, near, from.two}, to_be_coded(from.vertex, base));
+        const Lanes scale = size * 0.6f + spread * 0.25f;
+        const MediumModel::Circumstances known = {scale, spread, drift, fraction, near, from.two};
+        const UintLanes e = model_.code(coder_, known, to_be_coded(from.vertex, base));
         const UintLanes x = base + e;
         settle(from.vertex, x, as_floats(e));
         const Lanes from_plain = magnitudes(as_floats(x - plain)), from_smooth = magnitudes(as_floats(x - first) - smooth);
