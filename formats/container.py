@@ -127,6 +127,7 @@ def _parse(
         header = SimpleNamespace(**layout.parse(layout.Header, found[layout.HEADER].payload))
         _check_header(header)
         coordinates, method = _parse_lattice(header), _parse_method(header)
+        polygons = _parse_polygons(header)
     _check_presence(header, found)
 
     def payload(kind: bytes) -> bytes:
@@ -142,7 +143,7 @@ def _parse(
             header.n_single,
             header.n_specials,
             header.n_copies,
-            _parse_polygons(header),
+            polygons,
         ),
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,

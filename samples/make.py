@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import sample
-from samples import surfaces, texts
+from samples import polygons, surfaces, texts
 from samples.writers import ascii_stl, binary_stl, glb, obj, off, ply
 
 Array = npt.NDArray[Any]
@@ -163,12 +163,18 @@ def flavours() -> dict[str, bytes]:
         "polygons.obj": texts.POLYGONS,
         "materials.obj": texts.MATERIALS,
         "plain.off": off(sphere.vertices, sphere.faces),
+        "quads.off": _off(polygons.quad_torus(12, 24)),
+        "mixed.off": _off(polygons.mixed_sphere(720)),
         "colours.off": texts.COLOURS,
     }
 
 
 def _ply(surface: surfaces.Surface) -> bytes:
     return ply(surface[0].astype(np.float32), surface[1])
+
+
+def _off(surface: tuple[Array, list[list[int]]]) -> bytes:
+    return off(surface[0].astype(np.float32), surface[1])
 
 
 def _union(parts: list[surfaces.Surface]) -> surfaces.Surface:

@@ -49,11 +49,11 @@ def obj(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode()
 
 
-def off(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> bytes:
-    points, corners = _points(vertices), np.asarray(faces)
-    lines = ["OFF", f"{len(points)} {len(corners)} 0"]
+def off(vertices: npt.ArrayLike, faces: Sequence[Sequence[int]] | Array) -> bytes:
+    points = _points(vertices)
+    lines = ["OFF", f"{len(points)} {len(faces)} 0"]
     lines += [_numbers(point) for point in points]
-    lines += [f"3 {a} {b} {c}" for a, b, c in corners]
+    lines += [" ".join(map(str, [len(face), *face])) for face in faces]
     return "".join(f"{line}\n" for line in lines).encode()
 
 

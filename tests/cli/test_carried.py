@@ -10,7 +10,7 @@ from tests.formats.carried import contents
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 NAMES = ["texcoord.ply", "property_order.ply", "colours.ply", "colours.off"]
-NAMES += ["corners.obj", "materials.obj", "polygons.obj"]
+NAMES += ["corners.obj", "materials.obj", "polygons.obj", "quads.off", "mixed.off"]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -17,6 +17,7 @@ HEADER_FIELDS = [
     *("itemsize", "n_vertices", "n_symbols", "n_closed", "n_single", "n_specials"),
     *("n_copies", "n_exceptions", "has_polygons", "model", "method", "lattice"),
 ]
+POLYGON_FIELDS = ["n_polygons", "n_empty", "n_polygon_corners"]  # behind has_polygons, if it is 1
 BYTES = {"itemsize", "has_polygons", "model", "method", "lattice"}
 
 
@@ -53,6 +54,12 @@ def finite_mesh() -> ebz.Mesh:
     return ebz.Mesh(np.nan_to_num(mesh.vertices), mesh.faces)
 
 
+def polygons() -> ebz.Mesh:
+    """A triangle, a quad, a pentagon and an empty face."""
+    corners = [0, 1, 2, 0, 2, 3, 4, 2, 1, 5, 6, 7]
+    return ebz.Mesh(np.eye(8, 3), corners, face_offsets=[0, 3, 7, 12, 12])
+
+
 def files() -> dict[str, bytes]:
     """Between them they have every kind of chunk and of lattice."""
     plain, finite = rich_mesh(), finite_mesh()
@@ -62,6 +69,7 @@ def files() -> dict[str, bytes]:
         "everything": ebz.compress(plain),
         "fast": ebz.compress(plain, level=1),
         "table": ebz.compress(finite, model="stack"),
+        "polygons": ebz.compress(polygons()),
         "box": ebz.compress(finite, bits=7),
         "step": ebz.compress(finite, max_error=0.01),
         "grid": ebz.compress(finite, grid=((1, 2, 3), 0.01)),
@@ -128,13 +136,16 @@ def read_header(data: bytes) -> tuple[dict[str, int], bytes]:
     payload, at, fields = split(data)[0][1], 0, {}
     for name in HEADER_FIELDS:
         fields[name], at = (payload[at], at + 1) if name in BYTES else read_varint(payload, at)
+        if name == "has_polygons" and fields[name] == 1:
+            for counted in POLYGON_FIELDS:
+                fields[counted], at = read_varint(payload, at)
     return fields, payload[at:]
 
 
 def with_header(data: bytes, **changes: int) -> bytes:
     fields, parameters = read_header(data)
     fields |= changes
-    coded = [bytes([fields[n]]) if n in BYTES else varint(fields[n]) for n in HEADER_FIELDS]
+    coded = [bytes([fields[n]]) if n in BYTES else varint(fields[n]) for n in fields]
     return with_payload(data, b"H", b"".join(coded) + parameters)
 
 

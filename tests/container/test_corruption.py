@@ -287,6 +287,28 @@ def test_attribute_names_that_are_not_utf_8_are_refused():
     assert "name" in error(with_payload(FILES["everything"], b"V", payload), ebz.CorruptError)
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"model": 129},
+        {"model": 2},
+        {"n_empty": 5},
+        {"n_polygons": 2**31, "n_empty": 2**31 - 3},
+        {"n_polygons": 12},
+        {"n_polygon_corners": 13},
+        {"n_polygon_corners": 2**64 - 1},
+    ],
+)
+def test_polygons_that_their_triangles_cannot_make_are_refused(changes):
+    damaged = with_header(FILES["polygons"], **changes)
+    assert "polygons" in error(damaged, ebz.CorruptError)
+
+
+def test_faces_of_another_kind_need_another_reader():
+    damaged = with_header(FILES["box"], has_polygons=2)
+    assert "unknown kind 2" in error(damaged, ebz.VersionError)
+
+
 def test_heads_that_their_bytes_cannot_hold_are_refused():
     for n_head in (0, 1, 2**9 + 1, 2**63):
         payload = varint(n_head) + varint(3) + b"abc" + b"data"

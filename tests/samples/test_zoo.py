@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import ebz
 from tests.topology import Topology, topology
 
 SAMPLES = Path(__file__).parents[2] / "samples"
@@ -80,6 +81,12 @@ def test_samples_are_small():
 )
 def test_the_topology_is_as_described(name, expected):
     assert topology(faces_of(name)) == Topology(*expected)
+
+
+def test_polygons_have_as_many_corners_as_described():
+    for name, n_corners in (("quads.off", {4}), ("mixed.off", {3, 4, 5})):
+        mesh = ebz.read(SAMPLES / name)
+        assert set(np.diff(mesh.offsets)) == n_corners
 
 
 def test_holes_and_handles_are_many():
