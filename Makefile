@@ -24,6 +24,7 @@ FORCE:
 
 $(STAMP): $(VENV)/files $(KERNELS) pyproject.toml setup.py | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[test,check]'
+	@$(BIN)/python -m compileall -q build  # what an install that is not editable does by itself
 	@touch $@
 
 demo: $(STAMP)
