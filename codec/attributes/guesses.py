@@ -31,22 +31,18 @@ def best(plan: Plan, values: npt.NDArray[Any], items: Items) -> Guess:
     is_direction = plan.relation in (Relation.UNIT, Relation.OCTAHEDRAL)
     wide = np.nan_to_num(values.astype(np.float64), posinf=0, neginf=0) / _scale(plan)
     errors = {Guess.NONE: np.inf if is_direction else CONVINCING * np.abs(wide).mean()}
+    offs: dict[Guess, Vectors] = {}
     for weights in WEIGHTS if items.is_by_corner else WEIGHTS[:1]:
         for length in (Guess.NONE,) if is_direction else (Guess.NONE, Guess.SUM):
             guess = Guess.NORMALS | weights | length
             normals = _normals(guess, items)
-            errors[guess] = np.abs(wide - normals).mean()
-            errors[guess | Guess.INVERTED] = np.abs(wide + normals).mean()
+            for side, off in ((Guess.NONE, wide - normals), (Guess.INVERTED, wide + normals)):
+                offs[guess | side] = np.abs(off, out=off)
+                errors[guess | side] = float(off.mean())
     guess = min(errors, key=lambda guess: errors[guess])
-    if is_direction and items.is_by_corner and _is_off(guess, wide, items):
+    if is_direction and items.is_by_corner and np.median(offs[guess].max(axis=1)) > LEAST_ERROR:
         guess |= Guess.HEIGHTS
     return guess
-
-
-def _is_off(guess: Guess, entries: Vectors, items: Items) -> bool:
-    normals = _normals(guess, items)
-    normals = -normals if Guess.INVERTED in guess else normals
-    return bool(np.median(np.abs(entries - normals).max(axis=1)) > LEAST_ERROR)
 
 
 @np.errstate(all="ignore")
@@ -64,16 +60,10 @@ def _scale(plan: Plan) -> float:
     return plan.total if is_integer else 1.0
 
 
-def _faces(items: Items) -> Vectors:
-    """(m, 3) the products of edges: normals as long as twice the area."""
-    a, b, c = (items.corner_points[i::3] for i in range(3))
-    return np.cross(b - a, c - a)
-
-
 @np.errstate(all="ignore")
 def _normals(guess: Guess, items: Items) -> Vectors:
     """(n, 3), zeros where there is no direction."""
-    faces = _faces(items)
+    faces = items.face_products
     if Guess.AREA not in guess:
         faces = _unit(faces)
     if not items.is_by_corner:

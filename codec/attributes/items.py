@@ -72,6 +72,13 @@ class Sites:
         """(3t, 3) where the corners of the triangles are."""
         return self.points[self.vertex]
 
+    @cached_property
+    def face_products(self) -> Floats:
+        """(t, 3) the products of edges: normals of the triangles, as long as twice the area."""
+        a, b, c = (self.corner_points[i::3] for i in range(3))
+        with np.errstate(all="ignore"):
+            return np.cross(b - a, c - a)
+
 
 @dataclass(frozen=True)
 class Items:
@@ -105,6 +112,11 @@ class Items:
     def corner_points(self) -> Floats:
         """(3m, 3) where the corners of the surface are."""
         return NOWHERE if self.sites is None else self.sites.corner_points
+
+    @property
+    def face_products(self) -> Floats:
+        """(m, 3) normals of the faces of the surface, as long as twice the area."""
+        return NOWHERE if self.sites is None else self.sites.face_products
 
     @property
     def site(self) -> Int32s:
