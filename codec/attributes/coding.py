@@ -3,8 +3,9 @@
 Values -> integers on a lattice -> labels where few occur -> bytes, and back.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -38,24 +39,40 @@ def encode(
     fast: bool = False,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source entry of each output entry."""
+    one = partial(encode_bundle, items=items, precision=precision, fast=fast)
+    return encode_each(attributes, order, precision, one)
+
+
+def encode_each(
+    attributes: Attributes,
+    order: npt.NDArray[Any],
+    precision: AttributePrecision,
+    encode_one: Callable[[Bundle], EncodedArray],
+) -> list[EncodedArray]:
+    """What becomes of each bundle of entries in the order of the output."""
 
     def coded(bundle: Bundle) -> EncodedArray:
-        placed = replace(bundle, values=bundle.values[order])
-        return encode_bundle(placed, items, precision, fast=fast)
+        return encode_one(replace(bundle, values=bundle.values[order]))
 
     return threads.run(coded, bundles(attributes, precision.of))
 
 
 def decode(arrays: list[EncodedArray], items: Items) -> Attributes:
     """The attributes by name; raises CorruptError."""
+    return decode_each(arrays, partial(decode_array, items=items))
+
+
+def decode_each(
+    arrays: list[EncodedArray], decode_one: Callable[[EncodedArray], npt.NDArray[Any]]
+) -> Attributes:
+    """What becomes of each bundle, by the names of its attributes."""
     named: Attributes = {}
-    values = threads.run(lambda array: decode_array(array, items), arrays)
-    for array, decoded in zip(arrays, values, strict=True):
-        named |= by_name(array, decoded)
+    for array, decoded in zip(arrays, threads.run(decode_one, arrays), strict=True):
+        named |= _by_name(array, decoded)
     return named
 
 
-def by_name(array: EncodedArray, values: npt.NDArray[Any]) -> Attributes:
+def _by_name(array: EncodedArray, values: npt.NDArray[Any]) -> Attributes:
     """The attributes of a bundle."""
     if len(array.names) == 1:
         return {array.names[0]: values}

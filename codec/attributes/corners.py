@@ -2,15 +2,16 @@
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import _kernels, threads
+from ebz.codec import _kernels
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding
-from ebz.codec.attributes.bundles import Bundle, bundles
+from ebz.codec.attributes.bundles import Bundle
 from ebz.codec.attributes.items import Items, Sites
 from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.connectivity import Int32s
@@ -27,21 +28,13 @@ def encode(
     fast: bool,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source corner of each corner of the output."""
-
-    def coded(bundle: Bundle) -> EncodedArray:
-        placed = replace(bundle, values=bundle.values[order])
-        return _encode(placed, sites, precision, fast=fast)
-
-    return threads.run(coded, bundles(attributes, precision.of))
+    one = partial(_encode, sites=sites, precision=precision, fast=fast)
+    return coding.encode_each(attributes, order, precision, one)
 
 
 def decode(arrays: list[EncodedArray], sites: Sites) -> Attributes:
     """The attributes of the 3m corners of the output; raises CorruptError."""
-    named: Attributes = {}
-    values = threads.run(lambda array: _decode(array, sites), arrays)
-    for array, decoded in zip(arrays, values, strict=True):
-        named |= coding.by_name(array, decoded)
-    return named
+    return coding.decode_each(arrays, partial(_decode, sites=sites))
 
 
 def _encode(
