@@ -15,11 +15,11 @@
 #include <span>
 #include <vector>
 
+#include "gate_order.hpp"
 #include "least_squares.hpp"
 #include "light.hpp"
 #include "recall.hpp"
 #include "surface.hpp"
-#include "traversal.hpp"
 #include "wrapping.hpp"
 
 #include "../avx2.hpp"

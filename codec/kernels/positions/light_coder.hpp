@@ -14,12 +14,13 @@
 #include "../ans.hpp"
 #include "light.hpp"
 #include "light_model.hpp"
+#include "light_places.hpp"
 #include "light_predictor.hpp"
 #include "light_survey.hpp"
 #include "light_values.hpp"
 #include "recall.hpp"
 #include "surface.hpp"
-#include "traversal.hpp"
+#include "gate_order.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
@@ -29,28 +30,48 @@ template <class Coder>
 class LightCoder {
 public:
     LightCoder(Coder& coder, const Surface& mesh, std::span<int64_t> xyz)
-        : coder_(coder), corners_(mesh), traversal_(mesh, corners_), surveyor_(mesh, corners_, traversal_), xyz_(xyz.data()) {}
+        : coder_(coder), mesh_(mesh), order_(mesh), surveyor_(mesh), places_(static_cast<size_t>(mesh.n_vertices)), xyz_(xyz.data()) {}
 
     void run() {
-        for (int32_t v; (v = traversal_.next_vertex()) >= 0;) {
-            int64_t* position = xyz_ + 3 * static_cast<size_t>(v);
-            surveyor_.survey(v, s_);
-            if (s_.n_neighbours == 0) {
-                seeds_.code(coder_, position);
-                surveyor_.settle(v, position, {});
-                continue;
-            }
-            predictor_.predict(s_);
-            neighbour_agrees_ = {};
-            tip_agrees_ = {};
-            for (size_t turn = 0; turn < 3; ++turn) code_axis(turn, position);
-            surveyor_.settle(v, position, predictor_.learn());
-        }
+        const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
+        for (int32_t t = 0; t < n_faces; ++t)
+            if (!order_.visited(t)) component(t);
+        for (int32_t v = 0; v < mesh_.n_vertices; ++v)
+            if (!order_.known(v)) code(v);
     }
 
 private:
     static constexpr size_t n_contexts = 4;
     using Model = LightModel<n_contexts>;
+
+    void component(int32_t face) {
+        for (int32_t c = 3 * face; c < 3 * face + 3; ++c) {
+            const int32_t v = mesh_.vertex[static_cast<size_t>(c)];
+            if (order_.known(v)) continue;
+            order_.learn(v);
+            code(v);
+        }
+        order_.enter(face);
+        for (size_t n = batch_.size(); n == batch_.size();) {
+            n = order_.next_vertices(batch_);
+            for (size_t i = 0; i < n; ++i) code(batch_[i].vertex);
+        }
+    }
+
+    void code(int32_t v) {
+        int64_t* position = xyz_ + 3 * static_cast<size_t>(v);
+        surveyor_.survey(v, s_);
+        if (s_.n_neighbours == 0) {
+            seeds_.code(coder_, position);
+            surveyor_.settle(v, position, {});
+            return;
+        }
+        predictor_.predict(s_);
+        neighbour_agrees_ = {};
+        tip_agrees_ = {};
+        for (size_t turn = 0; turn < 3; ++turn) code_axis(turn, position);
+        surveyor_.settle(v, position, predictor_.learn());
+    }
 
     void code_axis(size_t turn, int64_t* position) {
         predictor_.expect(turn);
@@ -59,11 +80,12 @@ private:
         const int shift = std::max(0, (predictor_.level() - 12) / 2);
         const int64_t nearest = find_values(turn, d, base, shift);
         int64_t e = wrapping_difference(position[d], base);
-        if (!values_.code(coder_, d, shift == 0, e))
+        if (!values_.code(coder_, d, predictor_.level(), e))
             e = model_.code(coder_, d, contexts(turn, d, base, shift, nearest), predictor_.set(turn), shift, e);
         position[d] = wrapping_sum(base, e);
         const bool exact = values_.learn(e);
         residual_recall_.learn(key_, e);
+        places_.learn(d, position[d]);
         (turn == 0 ? first_residual_ : second_residual_) = e;
         predictor_.reveal(turn, position[d], e, exact);
         if (turn < 2) count_agreements(d);
@@ -96,6 +118,7 @@ private:
         values_.add(LightValues::neighbour, turn, agreement(turn, most), exact, static_cast<int64_t>(best));
         add_tip(turn, d, from, exact);
         add_recalled(turn, d, exact);
+        places_.add_to(values_, turn, s_, predictor_);
         return static_cast<int64_t>(nearest);
     }
 
@@ -138,14 +161,16 @@ private:
     }
 
     Coder& coder_;
-    const CornersOfVertices corners_;
-    Traversal traversal_;
+    const Surface& mesh_;
+    GateOrder order_;
+    std::array<PredictedVertex, 256> batch_;
     LightSurveyor surveyor_;
     LightSurroundings s_;
     LightPredictor predictor_;
     LightValues values_;
     Model model_;
     LightSeeds seeds_;
+    LightPlaces places_;
     Recall residual_recall_{12};
     std::array<uint8_t, LightSurroundings::max_neighbours> neighbour_agrees_{};
     std::array<uint8_t, LightSurroundings::max_tips> tip_agrees_{};

@@ -9,7 +9,6 @@
 
 #include "lanes.hpp"
 #include "surface.hpp"
-#include "traversal.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
@@ -60,8 +59,11 @@ struct LightSurroundings {
 
 class LightSurveyor {
 public:
-    LightSurveyor(const Surface& mesh, const CornersOfVertices& corners, const Traversal& known)
-        : mesh_(mesh), corners_(corners), known_(known), points_(static_cast<size_t>(mesh.n_vertices)), traces_(points_.size()) {}
+    explicit LightSurveyor(const Surface& mesh)
+        : mesh_(mesh), corners_(mesh), known_(static_cast<size_t>(mesh.n_vertices)), points_(known_.size()), traces_(known_.size()) {}
+
+    // Whether it has been settled.
+    bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
 
     void survey(int32_t v, LightSurroundings& s) const {
         s.tips_sum = s.spread = s.normal = s.ahead = s.behind = s.beside = s.neighbours_sum = Axes4{};
@@ -71,7 +73,7 @@ public:
         s.n_neighbours = s.n_parallelograms = s.n_behind = s.n_beside = 0;
         for (int32_t c : corners_[v]) {
             const int32_t a = vertex(next(c)), b = vertex(previous(c));
-            const bool knows_a = known_.known(a), knows_b = known_.known(b);
+            const bool knows_a = known(a), knows_b = known(b);
             if (knows_a) add_neighbour(s, a);
             if (knows_b && opposite(previous(c)) < 0) add_neighbour(s, b);
             if (knows_a && knows_b) add_parallelogram(s, c, a, b);
@@ -82,6 +84,7 @@ public:
         Axes4& point = points_[static_cast<size_t>(v)].at;
         for (size_t d = 0; d < 3; ++d) point[d] = static_cast<double>(std::clamp(position[d], -farthest, farthest));
         traces_[static_cast<size_t>(v)] = trace;
+        known_[static_cast<size_t>(v)] = 1;
     }
 
 private:
@@ -108,7 +111,7 @@ private:
         const int32_t across = opposite(next(c));
         if (across < 0) return;
         const int32_t apex = vertex(previous(across));
-        if (!known_.known(apex)) return;
+        if (!known(apex)) return;
         const Axes4 pa = point(a), pb = point(b), o = point(apex), tip = pa + pb - o;
         const auto i = static_cast<size_t>(s.n_parallelograms++);
         if (i > 0) s.spread += magnitudes(tip - s.tips[(i - 1) % s.max_tips]);
@@ -127,14 +130,14 @@ private:
         const int32_t across = opposite(edge);
         if (across < 0) return;
         const int32_t u = vertex(previous(across));
-        if (!known_.known(u)) return;
+        if (!known(u)) return;
         sum += point(u) - middle;
         ++n;
     }
 
     const Surface& mesh_;
-    const CornersOfVertices& corners_;
-    const Traversal& known_;
+    const CornersOfVertices corners_;
+    std::vector<uint8_t> known_;
     std::vector<LightPoint> points_;
     std::vector<LightTrace> traces_;
 };

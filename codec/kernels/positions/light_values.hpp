@@ -13,7 +13,7 @@ inline namespace EBZ_INSTRUCTIONS {
 
 class LightValues {
 public:
-    enum Kind : size_t { plain_base, expected_base, neighbour, tip, recalled };
+    enum Kind : size_t { plain_base, expected_base, neighbour, tip, recalled, along, around, mirrored };
 
     LightValues() { hits_.fill(first_hits); }
 
@@ -27,12 +27,14 @@ public:
         contexts_[n_++] = &hits_[((kind * 3 + turn) * 4 + agreement) * 4 + exact];
     }
 
-    // True if e, then one of the values, has been coded.  `near`: small ones are left to others.
+    // True if e, then one of the values, has been coded.  level: half-octaves of the magnitude expected, 6 for 1;
+    // a value that hits hardly more often than any other of that magnitude is left to others.
     template <class Coder>
-    bool code(Coder& coder, size_t lane, bool near, int64_t& e) {
+    bool code(Coder& coder, size_t lane, int level, int64_t& e) {
+        const int least = std::max(least_hits, 32768 >> std::max(0, (level - 6) / 2));
         for (size_t i = 0; i < n_; ++i) {
             const uint16_t p = *contexts_[i];
-            if (p < least_hits || (near && residuals_[i] >= -3 && residuals_[i] <= 3)) continue;
+            if (p < least) continue;
             if (!coder.bit(lane, e == residuals_[i], p)) continue;
             e = residuals_[i];
             return true;
@@ -53,8 +55,9 @@ public:
     }
 
 private:
-    static constexpr size_t n_kinds = 5, n_contexts = n_kinds * 3 * 4 * 4, max_values = 4;
-    static constexpr uint16_t first_hits = 8192, least_hits = 3000;  // of 2^15
+    static constexpr size_t n_kinds = 8, n_contexts = n_kinds * 3 * 4 * 4, max_values = 7;
+    static constexpr uint16_t first_hits = 8192;  // of 2^15
+    static constexpr int least_hits = 1300;
 
     std::array<uint16_t, n_contexts> hits_;
     std::array<int64_t, max_values> residuals_{};

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "medium.hpp"
-#include "medium_order.hpp"
+#include "gate_order.hpp"
 #include "surface.hpp"
 #include "wrapping.hpp"
 

@@ -13,7 +13,7 @@
 #include "lanes.hpp"
 #include "medium.hpp"
 #include "medium_model.hpp"
-#include "medium_order.hpp"
+#include "gate_order.hpp"
 #include "surface.hpp"
 #include "two_part_stream.hpp"
 

@@ -1,4 +1,4 @@
-// The order of the medium method: across the edges of visited faces, to those vertices first that two faces predict.
+// An order of vertices: across the edges of visited faces, to those vertices first that two faces predict.
 //
 // Reference: the idea is that of D. Cohen-Or, R. Cohen and R. Irony, "Multi-way geometry encoding", 2002.
 #pragma once

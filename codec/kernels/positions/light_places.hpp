@@ -1,0 +1,81 @@
+// Coordinates that come again: of points with the same coordinates before, of neighbours with the same ones.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "light_predictor.hpp"
+#include "light_values.hpp"
+#include "recall.hpp"
+#include "wrapping.hpp"
+
+namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
+
+class LightPlaces {
+public:
+    explicit LightPlaces(size_t n_vertices)
+        : along_(log2_entries(n_vertices)), around_(log2_entries(n_vertices)) {}
+
+    // Adds what is recalled for the axis under way.
+    void add_to(LightValues& values, size_t turn, const LightSurroundings& s, const LightPredictor& predictor) {
+        const size_t d = predictor.axis(turn);
+        const double origin = s.neighbours[0][d], second = s.n_neighbours > 1 ? s.neighbours[1][d] : 0;
+        const double one = turn > 0 ? predictor.value(predictor.axis(0)) : origin;
+        const double two = turn > 1 ? predictor.value(predictor.axis(1)) : 0;
+        along_key_ = key(static_cast<uint32_t>(4 * d + turn), one, two);
+        around_key_ = key(static_cast<uint32_t>(d + around_keys), origin, second);
+        const auto add = [&](LightValues::Kind kind, uint32_t hits, int64_t value) {
+            values.add(kind, turn, std::min<size_t>(hits - 1, 3), 0, wrapping_difference(value, predictor.base()));
+        };
+        found_ = along_.find(along_key_);
+        if (found_ != nullptr) {
+            const Mirror& mirror = mirrors_[d];
+            add(LightValues::along, found_->hits, found_->value);
+            if (mirror.hits > 0) add(LightValues::mirrored, mirror.hits, wrapping_difference(mirror.sum, found_->value));
+        }
+        const Recall::Entry* around = around_.find(around_key_);
+        if (around != nullptr) add(LightValues::around, around->hits, around->value);
+    }
+
+    void learn(size_t d, int64_t value) {
+        if (found_ != nullptr && found_->value != value) mirrors_[d].learn(wrapping_sum(found_->value, value));
+        along_.learn(along_key_, value);
+        around_.learn(around_key_, value);
+    }
+
+private:
+    // The sum of a coordinate and its mirror image, by the latest pair.
+    struct Mirror {
+        int64_t sum = 0;
+        uint32_t hits = 0;  // times in a row that the sum came again
+
+        void learn(int64_t latest) {
+            hits = latest == sum ? std::min(hits + 1, Recall::max_hits) : 1;
+            sum = latest;
+        }
+    };
+
+    static constexpr size_t around_keys = 16;  // beyond those of `along`
+
+    static int log2_entries(size_t n_vertices) { return std::clamp(static_cast<int>(std::bit_width(n_vertices)) + 1, 8, 14); }
+
+    static uint32_t key(uint32_t kind, double x, double y) {
+        const auto mixed = [](uint32_t h, double z) {
+            h = (h ^ static_cast<uint32_t>(static_cast<int64_t>(z))) * 0x85EBCA6Bu;
+            return h ^ h >> 15;
+        };
+        return mixed(mixed(kind * 0x9E3779B1u, x), y) * 0xC2B2AE35u;
+    }
+
+    Recall along_, around_;  // the axes before, the neighbours
+    uint32_t along_key_ = 0, around_key_ = 0;
+    const Recall::Entry* found_ = nullptr;  // by `along`
+    std::array<Mirror, 3> mirrors_;         // by axis
+};
+
+}  // namespace EBZ_INSTRUCTIONS
+}  // namespace ebz::positions
