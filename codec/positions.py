@@ -27,10 +27,14 @@ class Method(enum.IntEnum):
 FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 
 
+# Where light takes fewer bits a point, values repeat so much that these may be shorter.
+BELOW_LIGHT = {Method.MEDIUM: 7, Method.STRONG: 1}
+
+
 def encode(
     surface: Surface, points: Points, n_along: int, dtype: np.dtype[Any], method: Method
 ) -> tuple[bytes, Method]:
-    """The shortest stream by the method, or by those that suit a lattice of floats.
+    """The shortest stream by the method, or by those that suit such points.
 
     n_along: how many points are coded, the first; those past the surface have no neighbours.
     """
@@ -40,10 +44,18 @@ def encode(
         return _kernels.encode_positions(*_arrays(surface), n_along, values, chosen), chosen
 
     streams = threads.run(by, _candidates(points, dtype, method))
-    stream, chosen = min(streams, key=lambda pair: len(pair[0]))
+    stream, chosen = min(streams, key=_length)
     if not stream:  # more than the 32 bits of the fast and medium methods
         return encode(surface, points, n_along, dtype, Method.LIGHT)
-    return stream, chosen
+    if chosen != Method.LIGHT:
+        return stream, chosen
+    n_bits = 8 * len(stream) / max(n_along, 1)
+    others = [by(other) for other, few_bits in BELOW_LIGHT.items() if n_bits < few_bits]
+    return min([(stream, chosen), *(other for other in others if other[0])], key=_length)
+
+
+def _length(stream: tuple[bytes, Method]) -> int:
+    return len(stream[0])
 
 
 def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> npt.NDArray[Any]:
@@ -62,9 +74,10 @@ def _arrays(surface: Surface) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int
 
 
 def _candidates(points: Points, dtype: np.dtype[Any], method: Method) -> Sequence[Method]:
-    """Floats of 32 bits by their order are also integers that the strong method can predict."""
+    """Floats of 32 bits, by their order, are integers that every method can predict."""
     if not isinstance(points.lattice, FloatLattice):
         return [method]
     in_floats = FLOAT_METHODS[dtype.itemsize]
-    both = method == Method.STRONG and in_floats == Method.FLOAT32
-    return [in_floats, method] if both else [in_floats]
+    if in_floats == Method.FLOAT64:
+        return [in_floats]
+    return [method] if method in (Method.FAST, Method.MEDIUM) else [in_floats, method]
