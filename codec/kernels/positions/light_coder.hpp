@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    static constexpr size_t n_contexts = 4;
+    static constexpr size_t n_contexts = 4, ahead = 3;  // vertices that are prefetched
     using Model = LightModel<n_contexts>;
 
     void component(int32_t face) {
@@ -54,7 +54,10 @@ private:
         order_.enter(face);
         for (size_t n = batch_.size(); n == batch_.size();) {
             n = order_.next_vertices(batch_);
-            for (size_t i = 0; i < n; ++i) code(batch_[i].vertex);
+            for (size_t i = 0; i < n; ++i) {
+                if (i + ahead < n) surveyor_.prefetch(batch_[i + ahead]);
+                code(batch_[i].vertex);
+            }
         }
     }
 

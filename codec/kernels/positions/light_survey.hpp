@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gate_order.hpp"
 #include "lanes.hpp"
 #include "surface.hpp"
 
@@ -77,6 +78,13 @@ public:
             if (knows_a) add_neighbour(s, a);
             if (knows_b && opposite(previous(c)) < 0) add_neighbour(s, b);
             if (knows_a && knows_b) add_parallelogram(s, c, a, b);
+        }
+    }
+
+    void prefetch(const PredictedVertex& v) const {
+        for (const int32_t u : {v.vertex, v.a, v.b, v.o, v.c, v.d, v.p}) {
+            __builtin_prefetch(&points_[static_cast<size_t>(u)]);
+            __builtin_prefetch(&traces_[static_cast<size_t>(u)]);
         }
     }
 
