@@ -1,0 +1,53 @@
+// Arrays of numpy as the kernels see them, and what the kernels give as arrays.  The GIL is released meanwhile.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "../errors.hpp"
+
+namespace ebz::binding {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+template <class T>
+using Input = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Array = nb::ndarray<nb::numpy, T, nb::ndim<1>>;
+
+template <class T>
+std::span<const T> view(const Input<T>& array) {
+    return {array.data(), array.size()};
+}
+
+// Hands the memory of a vector over to numpy.
+template <class T>
+Array<T> to_numpy(std::vector<T>&& values) {
+    auto* owned = new std::vector<T>(std::move(values));
+    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    return Array<T>(owned->data(), {owned->size()}, owner);
+}
+
+template <class Work>
+auto without_gil(Work work) {
+    nb::gil_scoped_release release;
+    return work();
+}
+
+inline void require_addressable(size_t n_half_edges) {
+    if (n_half_edges > static_cast<size_t>(INT32_MAX)) {
+        throw TooLarge("more than 715,827,882 triangles");
+    }
+}
+
+inline nb::bytes to_bytes(const std::vector<uint8_t>& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
+
+}  // namespace ebz::binding

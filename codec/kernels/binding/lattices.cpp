@@ -1,0 +1,79 @@
+// Coordinates <-> integers on a lattice.
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "../lattices.hpp"
+#include "arrays.hpp"
+#include "modules.hpp"
+
+namespace ebz::binding {
+
+namespace {
+
+template <class Float>
+int decimal_digits(const Input<Float>& values, int max_digits, size_t max_misses) {
+    return without_gil([&] { return ebz::decimal_digits(view(values), max_digits, max_misses); });
+}
+
+template <class T>
+using Output = nb::ndarray<T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Numbers3 = std::tuple<double, double, double>;
+
+ebz::Steps steps(const Numbers3& origin, double step) {
+    return {{std::get<0>(origin), std::get<1>(origin), std::get<2>(origin)}, step};
+}
+
+template <class Float>
+std::tuple<Numbers3, Numbers3> bounds(const Input<Float>& coordinates) {
+    const auto b = without_gil([&] { return ebz::bounds(view(coordinates)); });
+    return {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+}
+
+template <class Float>
+Array<int64_t> to_multiples(const Input<Float>& coordinates, const Numbers3& origin, double step) {
+    return to_numpy(without_gil([&] {
+        std::vector<int64_t> multiples(coordinates.size());
+        ebz::to_multiples(view(coordinates), steps(origin, step), multiples);
+        return multiples;
+    }));
+}
+
+template <class Integer>
+using InputRows = nb::ndarray<const Integer, nb::shape<-1, 3>, nb::device::cpu>;
+
+template <class Integer, class Float>
+void from_multiples(const InputRows<Integer>& multiples, const Numbers3& origin, double step,
+                    const Output<Float>& coordinates) {
+    if (multiples.stride(1) != 1) throw nb::value_error("the rows of multiples are not contiguous");
+    without_gil([&] {
+        const std::span<Float> filled(coordinates.data(), coordinates.size());
+        const size_t n = std::min(multiples.shape(0), filled.size() / 3);
+        const ebz::Rows<Integer> rows{multiples.data(), n, multiples.stride(0)};
+        ebz::from_multiples(rows, steps(origin, step), filled);
+    });
+}
+
+template <class Float>
+void bind_lattices_of(nb::module_& m) {
+    m.def("bounds", &bounds<Float>, "coordinates"_a,
+          "The least and the greatest of each axis, infinite where some are not finite.");
+    m.def("to_multiples", &to_multiples<Float>, "coordinates"_a, "origin"_a, "step"_a,
+          "The nearest integers to (x - origin) / step.");
+    m.def("from_multiples", &from_multiples<int32_t, Float>, "multiples"_a, "origin"_a, "step"_a, "coordinates"_a);
+    m.def("from_multiples", &from_multiples<int64_t, Float>, "multiples"_a, "origin"_a, "step"_a, "coordinates"_a,
+          "Fills coordinates with origin + step * integer.");
+}
+
+}  // namespace
+
+void bind_lattices(nb::module_& m) {
+    m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
+    m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
+          "The fewest decimals that all values but max_misses have, -1 if there are too many.");
+    bind_lattices_of<float>(m);
+    bind_lattices_of<double>(m);
+}
+
+}  // namespace ebz::binding

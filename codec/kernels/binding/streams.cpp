@@ -1,0 +1,48 @@
+// Streams of integers and of text.
+#include <new>
+#include <vector>
+
+#include "../integers.hpp"
+#include "../text.hpp"
+#include "arrays.hpp"
+#include "modules.hpp"
+
+namespace ebz::binding {
+
+namespace {
+
+nb::bytes encode_integers(const Input<uint64_t>& values, size_t n_columns) {
+    return to_bytes(without_gil([&] { return ebz::encode_integers(view(values), n_columns); }));
+}
+
+Array<uint64_t> decode_integers(const Input<uint8_t>& bytes, size_t n_rows, size_t n_columns) {
+    return to_numpy(without_gil([&] { return ebz::decode_integers(view(bytes), n_rows, n_columns); }));
+}
+
+nb::bytes encode_text(const ebz::TextCoder& coder, const Input<uint8_t>& text) {
+    return to_bytes(without_gil([&] { return coder.encode(view(text)); }));
+}
+
+Array<uint8_t> decode_text(const ebz::TextCoder& coder, const Input<uint8_t>& bytes, size_t n_bytes) {
+    return to_numpy(without_gil([&] {
+        std::vector<uint8_t> text(n_bytes);
+        coder.decode(view(bytes), text);
+        return text;
+    }));
+}
+
+}  // namespace
+
+void bind_streams(nb::module_& m) {
+    m.def("encode_integers", &encode_integers, "values"_a, "n_columns"_a,
+          "Rows of unsigned integers, a model per column.");
+    m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,
+          "The rows, flattened.");
+    nb::class_<ebz::TextCoder>(m, "TextCoder", "Of text like a prior.")
+        .def("__init__",
+             [](ebz::TextCoder* self, const Input<uint8_t>& prior) { new (self) ebz::TextCoder(view(prior)); }, "prior"_a)
+        .def("encode", &encode_text, "text"_a, "The coded text.")
+        .def("decode", &decode_text, "data"_a, "n_bytes"_a, "The text.");
+}
+
+}  // namespace ebz::binding
