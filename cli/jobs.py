@@ -31,13 +31,14 @@ def is_alone(inputs: tuple[str, ...], n_threads: int) -> bool:
     return n_threads == 1 or len(inputs) <= 1
 
 
-def for_each(inputs: tuple[str, ...], work: Callable[[str], int]) -> int:
+def for_each(inputs: tuple[str, ...], work: Callable[[str], int], *, quiet: bool = False) -> int:
     """Calls `work` on every input, standard input if there is none, and returns the worst status.
 
     An error (1) outweighs a difference (2).
     """
     with messages.warnings_kept():
-        return _worst(_attempt(name, partial(work, name)) for name in inputs or ("-",))
+        names = inputs or ("-",)
+        return _worst(_attempt(name, partial(work, name), quiet=quiet) for name in names)
 
 
 def deliver_each(

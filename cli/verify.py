@@ -18,6 +18,7 @@ Examples:
   ebz verify *.ebz
   ebz verify --against bunny.ply bunny.ply.ebz
   ebz compress -c --bits 12 a.ply | ebz verify --against a.ply --json
+  ebz verify -q --against a.ply a.ply.ebz && rm a.ply
 
 Exit status: 0 fine, 1 an error (damage too), 2 a difference to MESH.
 """
@@ -31,9 +32,12 @@ Exit status: 0 fine, 1 an error (damage too), 2 a difference to MESH.
     type=click.Path(allow_dash=True, readable=False),
     help="Compare with this mesh, up to the order that INPUT does not keep.",
 )
+@click.option("-q", "--quiet", is_flag=True, help="Show errors only: the exit status tells.")
 @options.as_json
 @options.memory_limit
-def verify(inputs: tuple[str, ...], against: str | None, as_json: bool, memory_limit: int) -> int:
+def verify(
+    inputs: tuple[str, ...], against: str | None, quiet: bool, as_json: bool, memory_limit: int
+) -> int:
     """Check each INPUT: its checksums, its digest, and by decoding all of it.
 
     With --against, tell whether it holds the same vertices and faces as MESH, how far
@@ -48,10 +52,11 @@ def verify(inputs: tuple[str, ...], against: str | None, as_json: bool, memory_l
 
         data = Input(name, follow=True).read(memory_limit)
         result = ebz.verify(data, reference.mesh(), memory_limit=memory_limit)
-        _show(result, name, against, as_json=as_json, titled=len(inputs) > 1)
+        if not quiet:
+            _show(result, name, against, as_json=as_json, titled=len(inputs) > 1)
         return 0 if result.equal else DIFFERENT
 
-    return for_each(inputs, work)
+    return for_each(inputs, work, quiet=quiet)
 
 
 class _Reference:

@@ -246,6 +246,17 @@ def _words(value: object) -> set[str]:
     return set()
 
 
+def test_verify_is_silent_if_told_to(sh):
+    result = sh("""
+        sed 's/^3 0 3 2/3 0 2 3/' a.ply > other.ply; ebz compress a.ply
+        ebz verify -q --against a.ply a.ply.ebz; echo $?
+        ebz verify -q --against other.ply a.ply.ebz; echo $?
+        ebz verify -q no.ebz; echo $?
+    """)
+    assert result.stdout == b"0\n2\n1\n"
+    assert result.stderr.startswith(b"ebz: no.ebz: ") and result.stderr.count(b"\n") == 1
+
+
 def test_verify_tells_a_difference_by_its_status(sh):
     script = """
         sed 's/^3 0 3 2/3 0 2 3/' a.ply > other.ply; ebz compress a.ply
