@@ -46,7 +46,9 @@ struct Meaning {
 
 inline constexpr uint32_t n_expected = 32;  // the digits of all axes are 54 at most
 
-constexpr int shift_of(uint32_t expected) { return expected < 8 ? 0 : static_cast<int>(expected - 8) / 2; }
+// Streams that are not ours may let sizes grow further than those of 32 bits.
+inline constexpr int most_shift = 27;
+constexpr int shift_of(uint32_t expected) { return expected < 8 ? 0 : std::min(static_cast<int>(expected - 8) / 2, most_shift); }
 
 inline constexpr auto meanings = [] {
     std::array<std::array<Meaning, 16>, n_expected> table;

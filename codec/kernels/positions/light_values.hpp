@@ -31,7 +31,7 @@ public:
     // a value that hits hardly more often than any other of that magnitude is left to others.
     template <class Coder>
     bool code(Coder& coder, size_t lane, int level, int64_t& e) {
-        const int least = std::max(least_hits, 32768 >> std::max(0, (level - 6) / 2));
+        const int least = std::max(least_hits, 32768 >> std::clamp((level - 6) / 2, 0, 15));
         for (size_t i = 0; i < n_; ++i) {
             const uint16_t p = *contexts_[i];
             if (p < least) continue;
