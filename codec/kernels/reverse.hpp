@@ -39,7 +39,6 @@ public:
     // The edge of the top loop's gate is a diagonal, which degrees do not count.
     void uncount_gate();
 
-    bool has_loop() const { return !stack_.empty(); }
     size_t n_loops() const { return stack_.size(); }
 
     // The gate of a loop, the top one if nothing lies above it; it must be there.

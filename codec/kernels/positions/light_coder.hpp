@@ -1,4 +1,4 @@
-// The light method: vertices in order of traversal, axis by axis, one symbol each.
+// The light method: vertices in the order of gates, axis by axis, one symbol each.
 #pragma once
 
 #include <algorithm>
