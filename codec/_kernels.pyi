@@ -133,6 +133,16 @@ def decimal_digits(values: Annotated[NDArray[numpy.float64], dict(shape=(None,),
     The fewest decimals that all values but max_misses have, -1 if there are too many.
     """
 
+def single_digits(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], max_misses: int) -> int:
+    """
+    The significant digits of float32 that all values but max_misses are, 0 if all of them, -1 if they are none.
+    """
+
+def write_singles(singles: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu', writable=False)], digits: int) -> Annotated[NDArray[numpy.float64], dict(shape=(None,))]:
+    """
+    The float64 nearest to each rounded to significant digits, 0 for all of them.
+    """
+
 @overload
 def bounds(coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[tuple[float, float, float], tuple[float, float, float]]: ...
 

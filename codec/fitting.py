@@ -22,6 +22,7 @@ from ebz.codec.lattice import (
     GridLattice,
     Lattice,
     Points,
+    SingleLattice,
     StepLattice,
     bit_patterns,
 )
@@ -91,14 +92,23 @@ def fit_together(parts: Sequence[Floats], precision: Precision = LOSSLESS) -> li
 
 
 def _lossless(coordinates: Floats) -> Points:
-    flat = coordinates.reshape(-1)
+    return _with_exceptions(_exact_lattice(coordinates.reshape(-1)), coordinates)
+
+
+def _exact_lattice(flat: Floats) -> Lattice:
+    """The coarsest lattice that nearly all of the coordinates are on."""
     misses = flat.size >> MISSES_SHIFT
     digits = _kernels.decimal_digits(flat, MAX_DIGITS[flat.itemsize], misses)
+    decimals, most = DecimalLattice(digits), MAX_MULTIPLE
     if digits >= 0 and flat.size:
-        points = _with_exceptions(DecimalLattice(digits), coordinates)
-        if np.abs(points.integers).max() < MAX_POINTS[flat.itemsize]:
-            return points
-    return _with_exceptions(FloatLattice(), coordinates)
+        most = float(np.abs(decimals.integers(flat)).max())
+    if most < MAX_POINTS[4]:
+        return decimals
+    if flat.itemsize == 8 and flat.size:
+        digits = _kernels.single_digits(flat, misses)
+        if digits >= 0:
+            return SingleLattice(digits)
+    return decimals if most < MAX_POINTS[flat.itemsize] else FloatLattice()
 
 
 def _with_exceptions(lattice: Lattice, coordinates: Floats) -> Points:

@@ -21,6 +21,7 @@ NO_ORIGIN = (0.0, 0.0, 0.0)
 MAX_BITS = 30
 MAX_MULTIPLE = 2.0**40
 MAX_DIGITS = {4: 10, 8: 15}
+MAX_SINGLE_DIGITS = 15
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,25 @@ class FloatLattice:
         bits = np.where(integers < 0, integers ^ _magnitude_mask(dtype), integers)
         restored: Floats = bits.astype(f"i{dtype.itemsize}").view(dtype)
         return restored
+
+
+@dataclass(frozen=True)
+class SingleLattice:
+    """Float64 that were float32: as they are (0 digits), or rounded to significant digits."""
+
+    digits: int
+    kind = "single"
+
+    @np.errstate(over="ignore", under="ignore")
+    def integers(self, coordinates: Floats) -> Integers:
+        # What is not a number would not come back on every machine.
+        singles = np.where(np.isnan(coordinates), 0, coordinates).astype(np.float32)
+        return FloatLattice().integers(singles)
+
+    def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
+        singles = FloatLattice().coordinates(integers, np.dtype(np.float32))
+        written = _kernels.write_singles(singles.reshape(-1), self.digits)
+        return written.reshape(singles.shape).astype(dtype, copy=False)
 
 
 @dataclass(frozen=True)
@@ -121,7 +141,7 @@ class GridLattice:
         return inside
 
 
-Lattice = FloatLattice | DecimalLattice | BoxLattice | StepLattice | GridLattice
+Lattice = FloatLattice | SingleLattice | DecimalLattice | BoxLattice | StepLattice | GridLattice
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels, threads
 from ebz.codec.connectivity import Surface
-from ebz.codec.lattice import FloatLattice, Points
+from ebz.codec.lattice import FloatLattice, Lattice, Points, SingleLattice
 
 
 class Method(enum.IntEnum):
@@ -73,11 +73,18 @@ def _arrays(surface: Surface) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int
     return surface.opposite, surface.vertex
 
 
+def float_method(lattice: Lattice, itemsize: int) -> Method | None:
+    """The method that predicts in floats: None where the integers are no floats."""
+    if isinstance(lattice, SingleLattice):
+        return Method.FLOAT32
+    return FLOAT_METHODS[itemsize] if isinstance(lattice, FloatLattice) else None
+
+
 def _candidates(points: Points, dtype: np.dtype[Any], method: Method) -> Sequence[Method]:
     """Floats of 32 bits, by their order, are integers that every method can predict."""
-    if not isinstance(points.lattice, FloatLattice):
+    in_floats = float_method(points.lattice, dtype.itemsize)
+    if in_floats is None:
         return [method]
-    in_floats = FLOAT_METHODS[dtype.itemsize]
     if in_floats == Method.FLOAT64:
         return [in_floats]
     return [method] if method in (Method.FAST, Method.MEDIUM) else [in_floats, method]

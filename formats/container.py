@@ -13,11 +13,13 @@ from ebz.codec.errors import CorruptError, VersionError, corrupt_at
 from ebz.codec.lattice import (
     MAX_BITS,
     MAX_DIGITS,
+    MAX_SINGLE_DIGITS,
     BoxLattice,
     DecimalLattice,
     FloatLattice,
     GridLattice,
     Lattice,
+    SingleLattice,
     StepLattice,
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
@@ -126,7 +128,8 @@ def _parse(
     with corrupt_at(found[layout.HEADER].where):
         header = SimpleNamespace(**layout.parse(layout.Header, found[layout.HEADER].payload))
         _check_header(header)
-        coordinates, method = _parse_lattice(header), _parse_method(header)
+        coordinates = _parse_lattice(header)
+        method = _parse_method(header, coordinates)
         polygons = _parse_polygons(header)
     _check_presence(header, found)
 
@@ -269,8 +272,8 @@ def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
             raise CorruptError(f"{found[kind].where}: the header has no use for it")
 
 
-def _parse_method(header: Any) -> Method:
-    in_floats = FLOAT_METHODS[header.itemsize]
+def _parse_method(header: Any, lattice: Lattice) -> Method:
+    in_floats = FLOAT_METHODS[4 if isinstance(lattice, SingleLattice) else header.itemsize]
     if header.method in FLOAT_METHODS.values() and header.method != in_floats:
         raise CorruptError(f"positions of {header.itemsize} bytes by method {header.method}")
     try:
@@ -285,6 +288,10 @@ def _parse_lattice(header: Any) -> Lattice:
         if parameters.digits > MAX_DIGITS[header.itemsize]:
             raise CorruptError(f"a lattice of {parameters.digits} decimals")
         return DecimalLattice(parameters.digits)
+    if kind == "single":
+        if header.itemsize != 8 or parameters.digits > MAX_SINGLE_DIGITS:
+            raise CorruptError(f"float32 of {parameters.digits} digits in {header.itemsize} bytes")
+        return SingleLattice(parameters.digits)
     if kind == "box":
         origin = tuple(parameters.origin)
         if not 1 <= parameters.bits <= MAX_BITS:

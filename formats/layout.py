@@ -152,7 +152,7 @@ class Struct(construct.Struct):  # type: ignore[misc]
         return inner
 
 
-LATTICE_KINDS = ("float", "decimal", "box", "step", "grid")
+LATTICE_KINDS = ("float", "decimal", "box", "step", "grid", "single")
 DTYPE_SIZES = (4, 8)
 
 # Of the dtype of the coordinates.
@@ -185,6 +185,7 @@ Header = Struct(
             LATTICE_KINDS.index("box"): Struct("bits" / Byte, "origin" / Corner, "side" / Float64l),
             LATTICE_KINDS.index("step"): Struct("max_error" / Float64l),
             LATTICE_KINDS.index("grid"): Struct("origin" / Array(3, Float64l), "step" / Float64l),
+            LATTICE_KINDS.index("single"): Struct("digits" / Byte),
         },
     ),
     If(this.lattice < len(LATTICE_KINDS), Terminated),
@@ -223,7 +224,9 @@ Stack = Struct(
 
 Exceptions = Struct("rows" / Prefixed(VarInt, GreedyBytes), "exact" / GreedyBytes)
 
-ATTRIBUTE_LATTICES = ("exact", "decimal", "fraction", "box", "step", "shares", "octahedral")
+ATTRIBUTE_LATTICES = (
+    *("exact", "decimal", "fraction", "box", "step", "shares", "octahedral", "single"),
+)
 
 AttributeLattice = Struct(
     "kind" / Enum(Byte, **{name: i for i, name in enumerate(ATTRIBUTE_LATTICES)}),
@@ -240,6 +243,7 @@ AttributeLattice = Struct(
             "step": Struct("max_error" / Float64l),
             "shares": Struct("bits" / Byte),
             "octahedral": Struct("bits" / Byte),
+            "single": Struct("digits" / Byte),
         },
     ),
 )

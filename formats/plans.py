@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from ebz.codec.attributes.lattices import Decimals, Fractions, exact
+from ebz.codec.attributes.lattices import Decimals, Fractions, Singles, exact
 from ebz.codec.attributes.lossy import MAX_BITS, Box, Shares, Step
 from ebz.codec.attributes.octahedral import NORMAL_BITS, Octahedral
 from ebz.codec.attributes.plan import Guess, Lattice, Method, Plan, Relation
 from ebz.codec.errors import CorruptError, VersionError
-from ebz.codec.lattice import MAX_DIGITS
+from ebz.codec.lattice import MAX_DIGITS, MAX_SINGLE_DIGITS
 
 MAX_DIVISOR = 65535
 
@@ -82,6 +82,8 @@ def _lattice(parsed: Any, dtype: np.dtype[Any], n_components: int) -> Lattice:
     is_vector = is_float and n_components == 3
     if kind == "octahedral" and is_vector and parameters.bits in NORMAL_BITS:
         return Octahedral(parameters.bits)
+    if kind == "single" and dtype == np.float64 and parameters.digits <= MAX_SINGLE_DIGITS:
+        return Singles(parameters.digits)
     if kind == "exact":
         return exact(dtype)
     raise CorruptError(f"{dtype} on a lattice of kind {kind} with {dict(parameters)}")

@@ -16,7 +16,7 @@ from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import guesses, labels, lattices, relations, specials
 from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items
-from ebz.codec.attributes.lattices import BitsLattice
+from ebz.codec.attributes.lattices import bytes_of_floats
 from ebz.codec.attributes.octahedral import Octahedral
 from ebz.codec.attributes.plan import Guess, Method, Plan, Relation
 from ebz.codec.attributes.precision import AttributePrecision, lattice_of
@@ -131,7 +131,7 @@ def _plans(
 def _fast(plans: list[tuple[Plan, Integers]], array: EncodedArray) -> list[tuple[Plan, Integers]]:
     """The plan that takes few operations a value; none for bits of floats."""
     plain, integers = plans[0]
-    if _is_in_floats(plain, array):
+    if _space(plain, array):
         return []
     return [(replace(plain, method=Method.FAST), integers)]
 
@@ -162,7 +162,6 @@ def _decode(array: EncodedArray, items: Items) -> Integers:
 
 def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[str, Any]:
     """What both sides tell the kernel."""
-    space = SPACES[array.dtype.itemsize] if _is_in_floats(plan, array) else 0
     guess = np.zeros(0)
     if plan.guess != Guess.NONE and not plan.n_labels:
         guess = guesses.positions(plan, items)
@@ -177,7 +176,7 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
         "site": items.site,
         "guess": guess.reshape(-1),
         "method": plan.method,
-        "space": space,
+        "space": _space(plan, array),
         "relation": plan.relation,
         "total": plan.total,
         "heights": Guess.HEIGHTS in plan.guess,
@@ -185,7 +184,8 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
     }
 
 
-def _is_in_floats(plan: Plan, array: EncodedArray) -> bool:
-    """Whether integers stand for floats of 4 or 8 bytes, and are predicted as these."""
-    is_exact = isinstance(plan.lattice, BitsLattice) and not plan.n_labels
-    return is_exact and array.dtype.itemsize in SPACES
+def _space(plan: Plan, array: EncodedArray) -> int:
+    """The space of floats in which integers that stand for them are predicted, 0 for others."""
+    if plan.n_labels:
+        return 0
+    return SPACES.get(bytes_of_floats(plan.lattice, array.dtype), 0)

@@ -17,6 +17,7 @@ from ebz.codec.lattice import (
     DecimalLattice,
     FloatLattice,
     Integers,
+    SingleLattice,
 )
 
 Values = npt.NDArray[Any]
@@ -105,7 +106,31 @@ class Fractions:
         return (integers / self.divisor).astype(dtype)
 
 
-Lossless = IntegerLattice | BitsLattice | Decimals | Fractions
+@dataclass(frozen=True)
+class Singles:
+    """Float64 that were float32: as they are (0 digits), or rounded to significant digits."""
+
+    digits: int
+    kind = "single"
+
+    def integers(self, values: Values) -> Integers:
+        return SingleLattice(self.digits).integers(values)
+
+    def positions(self, values: Values) -> Values:
+        return values
+
+    def values(self, integers: Integers, dtype: np.dtype[Any]) -> Values:
+        return SingleLattice(self.digits).coordinates(integers, dtype)
+
+
+Lossless = IntegerLattice | BitsLattice | Decimals | Fractions | Singles
+
+
+def bytes_of_floats(lattice: object, dtype: np.dtype[Any]) -> int:
+    """The size of the floats whose bits the integers are; 0 where they are none."""
+    if isinstance(lattice, Singles):
+        return 4
+    return dtype.itemsize if isinstance(lattice, BitsLattice) else 0
 
 
 def exact(dtype: np.dtype[Any]) -> Lossless:
@@ -121,18 +146,34 @@ def fit(values: Values) -> Lossless:
     flat = values.reshape(-1)
     flat = flat[np.isfinite(flat)]
     misses = flat.size >> MISSES_SHIFT
+    multiples = _multiples(flat, misses)
+    for lattice in multiples:
+        if _fits(lattice, flat, MAX_POINTS[4], misses):
+            return lattice
+    if flat.itemsize == 4:
+        return exact(values.dtype)
+    digits = _kernels.single_digits(flat, misses)
+    if flat.size and digits >= 0:
+        return Singles(digits)
+    fitting = (one for one in multiples if _fits(one, flat, MAX_POINTS[8], misses))
+    return next(fitting, exact(values.dtype))
+
+
+def _multiples(flat: Values, misses: int) -> list[Lossless]:
+    """Lattices of multiples that the values may be on, the likeliest first."""
     digits = _kernels.decimal_digits(flat, MAX_DIGITS[flat.itemsize], misses)
     candidates: list[Lossless] = [Fractions(divisor) for divisor in DIVISORS]
     if digits >= 0:
-        decimals = Decimals(digits)
-        candidates.insert(0 if digits < 3 else len(candidates), decimals)
-    for lattice in candidates:
-        integers = lattice.integers(flat)
-        off = bits(lattice.values(integers, flat.dtype)) != bits(flat)
-        small = np.abs(integers).max(initial=0) < MAX_POINTS[flat.itemsize]
-        if small and np.count_nonzero(off) <= misses:
-            return lattice
-    return exact(values.dtype)
+        candidates.insert(0 if digits < 3 else len(candidates), Decimals(digits))
+    return candidates
+
+
+def _fits(lattice: Lossless, flat: Values, n_points: float, misses: int) -> bool:
+    """Whether nearly all of the values are among so many points."""
+    integers = lattice.integers(flat)
+    off = bits(lattice.values(integers, flat.dtype)) != bits(flat)
+    small = np.abs(integers).max(initial=0) < n_points
+    return bool(small and np.count_nonzero(off) <= misses)
 
 
 def nearest(multiples: npt.NDArray[np.float64]) -> Integers:

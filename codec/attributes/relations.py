@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.attributes.lattices import BitsLattice
+from ebz.codec.attributes.lattices import bytes_of_floats
 from ebz.codec.attributes.octahedral import Octahedral
 from ebz.codec.attributes.plan import Plan, Relation
 from ebz.codec.lattice import Integers
@@ -25,7 +25,7 @@ def find(plan: Plan, integers: Integers, dtype: np.dtype[np.generic]) -> Plan:
         return replace(plan, relation=Relation.OCTAHEDRAL, total=plan.lattice.last / 2)
     if n_components < 2:
         return plan
-    in_floats = isinstance(plan.lattice, BitsLattice)
+    in_floats = bytes_of_floats(plan.lattice, dtype) > 0
     wide = (plan.lattice.values(integers, dtype) if in_floats else integers).astype(np.float64)
     if n_components == 3:
         lengths = np.sqrt((wide * wide).sum(axis=1))

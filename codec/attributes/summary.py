@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ebz.codec.attributes.lattices import Decimals, Fractions
+from ebz.codec.attributes.lattices import Decimals, Fractions, Singles
 from ebz.codec.attributes.lossy import Box, Shares, Step
 from ebz.codec.attributes.octahedral import Octahedral
 from ebz.codec.attributes.plan import Guess, Lattice, Method, Plan, Relation
@@ -29,6 +29,8 @@ def precision(lattice: Lattice) -> str:
         return f"exact, {lattice.digits} decimals"
     if isinstance(lattice, Fractions):
         return f"exact, steps of 1/{lattice.divisor}"
+    if isinstance(lattice, Singles):
+        return f"exact, float32 in {lattice.digits} digits" if lattice.digits else "exact, float32"
     if isinstance(lattice, Box | Shares):
         return f"{lattice.bits} bits, step {lattice.step:.6g}"
     if isinstance(lattice, Step):

@@ -178,3 +178,39 @@ def test_decimals_are_found(digits, n, rng):
     assert points.lattice.kind == "decimal"
     assert points.lattice.digits <= digits
     assert not len(points.exceptions)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.sampled_from([0, 9, 10, 12, 15]), st.integers(20, 200), st.sampled_from([1, 6, 9]), rngs)
+def test_float64_that_were_float32_cost_as_much(digits, n, level, rng):
+    singles = (rng.normal(size=(n, 3)) * 10.0 ** rng.integers(-9, 4)).astype(np.float32)
+    singles[0, 0] = -0.0
+    if digits:
+        texts = [f"{x:.{digits - 1}e}" for x in singles.reshape(-1).astype(float).tolist()]
+        values = np.array(texts, float).reshape(-1, 3)
+    else:
+        values = singles.astype(float)
+    points = fitting.fit(values)
+    assert points.lattice.kind == "single"
+    assert points.lattice.digits == digits
+    faces = rng.integers(0, n, (n, 3))
+    mesh = ebz.Mesh(values, faces, {"a": values})
+    data = ebz.compress(mesh, level=level)
+    assert same_mesh(mesh, ebz.decompress(data))
+    narrow = ebz.compress(ebz.Mesh(singles, faces, {"a": singles}), level=level)
+    assert len(data) <= len(narrow) + 4
+
+
+def test_what_is_beside_the_float32_is_an_exception():
+    values = np.random.default_rng(0).normal(size=(400, 3)).astype(np.float32).astype(float)
+    values[:5, 1] = [np.nan, np.pi, 1e300, -5e-324, -np.inf]
+    points = fitting.fit(values)
+    assert points.lattice.kind == "single"
+    assert len(points.exceptions) == 4
+    mesh = ebz.Mesh(values, [], {"a": values})
+    assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh)))
+
+
+def test_no_float64_of_full_precision_is_taken_for_float32():
+    values = np.random.default_rng(0).normal(size=(400, 3))
+    assert fitting.fit(values).lattice.kind == "float"

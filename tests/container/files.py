@@ -74,6 +74,7 @@ def files() -> dict[str, bytes]:
         "step": ebz.compress(finite, max_error=0.01),
         "grid": ebz.compress(finite, grid=((1, 2, 3), 0.01)),
         "float": ebz.compress(ebz.Mesh(np.sqrt(random.astype(float)), finite.faces)),
+        "single": ebz.compress(ebz.Mesh(np.sqrt(random).astype(float), finite.faces)),
         "automaton": ebz.compress(triangle, model="loop-60", embed_model=True),
         "stack": ebz.compress(triangle, model="stack", embed_model=True),
         "order": ebz.compress(plain, keep_order=True),

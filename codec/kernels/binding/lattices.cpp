@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "../lattices.hpp"
+#include "../singles.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
 
@@ -15,6 +16,19 @@ namespace {
 template <class Float>
 int decimal_digits(const Input<Float>& values, int max_digits, size_t max_misses) {
     return without_gil([&] { return ebz::decimal_digits(view(values), max_digits, max_misses); });
+}
+
+int single_digits(const Input<double>& values, size_t max_misses) {
+    return without_gil([&] { return ebz::single_digits(view(values), max_misses); });
+}
+
+Array<double> write_singles(const Input<float>& singles, int digits) {
+    if (digits < 0 || digits > ebz::max_single_digits) throw nb::value_error("more digits than a decimal has");
+    return to_numpy(without_gil([&] {
+        std::vector<double> values(singles.size());
+        ebz::write_singles(view(singles), digits, values);
+        return values;
+    }));
 }
 
 template <class T>
@@ -72,6 +86,10 @@ void bind_lattices(nb::module_& m) {
     m.def("decimal_digits", &decimal_digits<float>, "values"_a, "max_digits"_a, "max_misses"_a);
     m.def("decimal_digits", &decimal_digits<double>, "values"_a, "max_digits"_a, "max_misses"_a,
           "The fewest decimals that all values but max_misses have, -1 if there are too many.");
+    m.def("single_digits", &single_digits, "values"_a, "max_misses"_a,
+          "The significant digits of float32 that all values but max_misses are, 0 if all of them, -1 if they are none.");
+    m.def("write_singles", &write_singles, "singles"_a, "digits"_a,
+          "The float64 nearest to each rounded to significant digits, 0 for all of them.");
     bind_lattices_of<float>(m);
     bind_lattices_of<double>(m);
 }
