@@ -79,21 +79,21 @@ public:
     // Every start moves by 2^-rate of its distance to where it would be if only this symbol occurred;
     // the rate falls from 1/8 to 1/64 (rounding keeps each frequency at least_frequency or above).
     void learn(uint32_t symbol) {
-        const uint64_t* rate = rates[n_seen_].data();
+        const int rate = rates[n_seen_];
         n_seen_ = static_cast<uint8_t>(n_seen_ + (n_seen_ < max_seen));
 #ifdef EBZ_AVX2
         if constexpr (n == 16) {
             auto* row = reinterpret_cast<__m256i*>(starts_.data());
             const __m256i old = _mm256_loadu_si256(row);
             const __m256i target = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(targets[symbol].data()));
-            const __m256i change = _mm256_sra_epi16(_mm256_sub_epi16(target, old), _mm_load_si128(reinterpret_cast<const __m128i*>(rate)));
+            const __m256i change = _mm256_sra_epi16(_mm256_sub_epi16(target, old), _mm_cvtsi32_si128(rate));
             return _mm256_storeu_si256(row, _mm256_add_epi16(old, change));
         }
 #endif
 #ifdef __SSE2__
         auto* row = reinterpret_cast<__m128i*>(starts_.data());
         const auto* target = reinterpret_cast<const __m128i*>(targets[symbol].data());
-        const __m128i shift = _mm_load_si128(reinterpret_cast<const __m128i*>(rate));
+        const __m128i shift = _mm_cvtsi32_si128(rate);
         for (int i = 0; i < n / 8; ++i) {
             const __m128i old = _mm_load_si128(row + i);
             _mm_store_si128(row + i, _mm_add_epi16(old, _mm_sra_epi16(_mm_sub_epi16(_mm_load_si128(target + i), old), shift)));
@@ -101,7 +101,7 @@ public:
 #else
         for (int i = 0; i < n_symbols; ++i) {
             const int old = starts_[i];
-            starts_[i] = static_cast<uint16_t>(old + ((targets[symbol][i] - old) >> *rate));
+            starts_[i] = static_cast<uint16_t>(old + ((targets[symbol][i] - old) >> rate));
         }
 #endif
     }
@@ -118,11 +118,9 @@ private:
                 table[s][i] = static_cast<int16_t>(least_frequency * i + (i > s ? total - least_frequency * n_symbols : 0));
         return table;
     }();
-    // As shifts of vectors take them.
-    struct alignas(16) Rate : std::array<uint64_t, 2> {};
     static constexpr auto rates = [] {
-        std::array<Rate, max_seen + 1> table{};
-        for (int i = 0; i <= max_seen; ++i) table[i][0] = i < 6 ? 3 : i < 20 ? 4 : i < max_seen ? 5 : 6;
+        std::array<uint8_t, max_seen + 1> table{};
+        for (int i = 0; i <= max_seen; ++i) table[i] = i < 6 ? 3 : i < 20 ? 4 : i < max_seen ? 5 : 6;
         return table;
     }();
 

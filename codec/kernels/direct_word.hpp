@@ -119,7 +119,7 @@ public:
                std::vector<SpecialS>& specials)
         : coder_(coder),
           header_(header),
-          symbols_(symbols),
+          symbols_(symbols.data()),
           specials_(specials),
           reverse_(header.n_symbols, header.n_closed, header.n_single),
           special_coder_(n_specials, header.n_symbols),
@@ -146,7 +146,7 @@ private:
     [[gnu::always_inline]] uint32_t apply(uint32_t context, Index position, Symbol symbol, int64_t meets) {
         if (Coder::encoding && symbols_[position] != symbol) throw Corrupt("no word of Edgebreaker's");
         symbols_[position] = symbol;
-        const uint32_t degree = reverse_.apply(symbol, meets);
+        const uint32_t degree = reverse_.apply<false>(symbol, meets);
         return DirectRows::context(degree, context << 3 | (symbol + 1u));
     }
 
@@ -159,7 +159,7 @@ private:
 
     Coder coder_;
     const WordHeader& header_;
-    std::vector<uint8_t>& symbols_;
+    uint8_t* const symbols_;
     std::vector<SpecialS>& specials_;
     Reverse reverse_;
     SpecialCoder special_coder_;

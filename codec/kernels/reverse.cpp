@@ -1,5 +1,7 @@
 #include "reverse.hpp"
 
+#include <numeric>
+
 namespace ebz {
 
 Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single, PieceKind kind)
@@ -10,13 +12,7 @@ Reverse::Reverse(Index n_symbols, Index n_closed, Index n_single, PieceKind kind
       triangle_(n_triangles_),
       opposite_(static_cast<size_t>(n_triangles_) * 3),
       vertex_(opposite_.size()),
-      edges_(std::make_unique_for_overwrite<LoopEdge[]>(opposite_.size())),
-      same_as_(std::make_unique_for_overwrite<Index[]>(opposite_.size())) {}
-
-Index Reverse::root(Index vertex) {
-    while (same_as_[vertex] != vertex) vertex = same_as_[vertex] = same_as_[same_as_[vertex]];
-    return vertex;
-}
+      edges_(std::make_unique_for_overwrite<LoopEdge[]>(opposite_.size())) {}
 
 void Reverse::uncount_gate() {
     LoopEdge& gate = edges_[top()];
@@ -25,19 +21,13 @@ void Reverse::uncount_gate() {
     edges_[gate.next].degree -= edges_[gate.next].degree > 1;
 }
 
-// Later ones refer to earlier ones.
-void Reverse::unite(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    same_as_[std::max(a, b)] = std::min(a, b);
-}
-
 Reverse::Gate Reverse::split(int64_t meets) {
     const Index n = top();
     if (meets != none) return splice(n, edge_met(meets));
-    if (stack_.size() < 2) throw Corrupt("the word has an S that lacks its left loop");
-    stack_.pop_back();
-    return splice(n, stack_.back().gate);
+    if (below_.empty()) throw Corrupt("the word has an S that lacks its left loop");
+    const Index m = below_.back().gate;
+    below_.pop_back();
+    return splice(n, m);
 }
 
 // Joins two loops, or splits one in two, depending on where the two edges are.
@@ -56,7 +46,7 @@ Reverse::Gate Reverse::splice(Index n, Index m) {
     add_edge(edges_[first]);
     add_edges(edges_[beyond], gate.degree);
     add_excess(edges_[beyond], gate.excess - 8);
-    unite(edges_[beyond].vertex, gate.vertex);
+    same_.emplace_back(edges_[beyond].vertex, gate.vertex);
     met.half_edge = h;
     met.next = first;
     edges_[first].previous = m;
@@ -69,8 +59,8 @@ Reverse::Gate Reverse::splice(Index n, Index m) {
 
 Index Reverse::edge_met(int64_t meets) const {
     // Everything built since the loop below was last touched belongs to the component of the top loop.
-    if (stack_.empty()) throw Corrupt("the word needs a loop where there is none");
-    const int64_t end = stack_.size() > 1 ? stack_[stack_.size() - 2].front : n_triangles_ - n_closed_;
+    if (gate_ == none) throw Corrupt("the word needs a loop where there is none");
+    const int64_t end = below_.empty() ? n_triangles_ - n_closed_ : below_.back().front;
     if (meets / 2 <= triangle_ - n_closed_ || meets / 2 >= end) {
         throw Corrupt("a special S meets a triangle out of range");
     }
@@ -89,7 +79,8 @@ int64_t Reverse::met_along_loop(int64_t n_steps, bool to_left) const {
 }
 
 Connectivity Reverse::finish() {
-    if (stack_.size() < static_cast<size_t>(n_closed_) + n_single_) {
+    if (gate_ != none) below_.push_back(active(triangle_));
+    if (below_.size() < static_cast<size_t>(n_closed_) + n_single_) {
         throw Corrupt("the word leaves fewer loops than there are components");
     }
     return numbered(move_closed_components());
@@ -99,14 +90,14 @@ Connectivity Reverse::finish() {
 // before its symbols: each moves towards the front by the number of closed components after it.  Returns the
 // first triangle of each component.
 std::vector<Index> Reverse::move_closed_components() {
-    const size_t n_open = stack_.size() - n_closed_ - n_single_;
+    const size_t n_open = below_.size() - n_closed_ - n_single_;
     // From the top of the stack down: the components in the order of the word.
-    const auto component = [&](size_t i) -> const Active& { return stack_[stack_.size() - 1 - i]; };
+    const auto component = [&](size_t i) -> const Active& { return below_[below_.size() - 1 - i]; };
     const auto front = [&](size_t i) {
-        return i < stack_.size() ? component(i).front : n_triangles_ - n_closed_;
+        return i < below_.size() ? component(i).front : n_triangles_ - n_closed_;
     };
     std::vector<Index> firsts;
-    firsts.reserve(stack_.size());
+    firsts.reserve(below_.size());
     for (size_t i = 0; i < n_open; ++i) firsts.push_back(front(i));
     if (n_open > 0) shift(0, front(n_open), n_closed_);
     for (Index j = 0; j < n_closed_; ++j) {
@@ -121,7 +112,7 @@ std::vector<Index> Reverse::move_closed_components() {
         add_first_triangle(active.front + j, a, by);
         firsts.push_back(active.front + j);
     }
-    for (size_t i = n_open + n_closed_; i < stack_.size(); ++i) firsts.push_back(front(i) + n_closed_);
+    for (size_t i = n_open + n_closed_; i < below_.size(); ++i) firsts.push_back(front(i) + n_closed_);
     return firsts;
 }
 
@@ -146,17 +137,34 @@ void Reverse::add_first_triangle(Index at, const LoopEdge& a, Index by) {
     vertex_[3 * at + 2] = b.vertex;
 }
 
+// Of each provisional vertex: itself, or the first that is the same.
+std::vector<Index> Reverse::united_vertices() const {
+    std::vector<Index> first(static_cast<size_t>(n_vertices_));
+    std::iota(first.begin(), first.end(), 0);
+    const auto root = [&](Index v) {
+        while (first[v] != v) v = first[v] = first[first[v]];
+        return v;
+    };
+    for (const auto [v, w] : same_) {
+        const Index a = root(v), b = root(w);
+        first[std::max(a, b)] = std::min(a, b);
+    }
+    for (Index& v : first) v = first[v];  // ascending: what it refers to is a root
+    return first;
+}
+
 // A triangle that is not the first of its component has its gate in common with an earlier one: only its
 // third corner may be the first of a vertex.
 Connectivity Reverse::numbered(const std::vector<Index>& firsts) {
-    for (Index v = 0; v < n_vertices_; ++v) same_as_[v] = same_as_[same_as_[v]];
-    std::vector<Index> number(n_vertices_, none);
+    const std::vector<Index> same_as = united_vertices();
+    std::vector<Index> number(same_as.size(), none);
     Index n = 0;
+    // Without a branch: which are new is as good as random.
     const auto meet = [&](Index corner) {
-        Index& known = number[same_as_[vertex_[corner]]];
-        const bool is_new = known == none;
-        known = is_new ? n : known;
-        n += is_new;
+        Index& known = number[same_as[vertex_[corner]]];
+        const Index is_new = known >> 31;
+        known = (known & ~is_new) | (n & is_new);
+        n -= is_new;
     };
     for (size_t i = 0; i < firsts.size(); ++i) {
         const Index end = i + 1 < firsts.size() ? firsts[i + 1] : n_triangles_;
@@ -164,10 +172,10 @@ Connectivity Reverse::numbered(const std::vector<Index>& firsts) {
         meet(3 * firsts[i] + 1);
         for (Index t = firsts[i]; t < end; ++t) meet(3 * t + 2);
     }
-    for (Index v = 0; v < n_vertices_; ++v) number[v] = number[same_as_[v]];
     Index all = 0;
-    for (Index& v : vertex_) all |= v = number[v];
+    for (size_t v = 0; v < number.size(); ++v) all |= number[v] = number[same_as[v]];
     if (all < 0) throw Corrupt("the word joins components");
+    for (Index& v : vertex_) v = number[v];
     for (Index& h : opposite_) h = std::max(h, none);
     return {std::move(opposite_), {std::move(vertex_), n}};
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "edgebreaker.hpp"
@@ -33,16 +34,18 @@ public:
     Reverse(Index n_symbols, Index n_closed, Index n_single, PieceKind kind = PieceKind::triangles);
 
     // One symbol, at a position that falls by one from call to call; meets is that of SpecialS, none
-    // for all others.  Returns the degree at the gate, which so need not be read again.
+    // for all others.  Returns the degree at the gate, which so need not be read again.  Excesses cost time
+    // where nobody asks for them.
+    template <bool has_excesses = true>
     uint8_t apply(Symbol symbol, int64_t meets);
 
     // The edge of the top loop's gate is a diagonal, which degrees do not count.
     void uncount_gate();
 
-    size_t n_loops() const { return stack_.size(); }
+    size_t n_loops() const { return below_.size() + (gate_ != none); }
 
     // The gate of a loop, the top one if nothing lies above it; it must be there.
-    Index gate(size_t below = 0) const { return stack_[stack_.size() - 1 - below].gate; }
+    Index gate(size_t below = 0) const { return below == 0 ? gate_ : below_[below_.size() - below].gate; }
 
     const LoopEdge& edge(Index e) const { return edges_[e]; }
 
@@ -57,7 +60,7 @@ public:
 private:
     struct Active {
         Index gate;
-        Index front;  // the position of the latest symbol: in the end, of the component's first
+        Index front;  // the position of its latest symbol: in the end, of the component's first
     };
 
     // A gate, and the degree of the vertex where it starts.
@@ -69,6 +72,7 @@ private:
     Gate end();
     Gate right();
     Gate left();
+    template <bool has_excesses>
     Gate close();
     Gate split(int64_t meets);
     Gate splice(Index n, Index met);
@@ -76,8 +80,6 @@ private:
     Index take();
     void release(Index e);
     Index new_vertex();
-    Index root(Index vertex);
-    void unite(Index a, Index b);
     void match(Index h, const LoopEdge& edge);
     void lie_on_loop(Index h, Index e) { opposite_[h] = ~e; }
     void set_corners(Index a, Index b, Index c);
@@ -91,9 +93,11 @@ private:
     static void add_excess(LoopEdge& edge, int excess) {
         edge.excess = static_cast<uint8_t>(std::clamp(edge.excess + excess, 0, 15));
     }
+    Active active(Index next_triangle) const { return {gate_, next_triangle - n_closed_}; }
     std::vector<Index> move_closed_components();
     void shift(Index from, Index to, Index by);
     void add_first_triangle(Index at, const LoopEdge& a, Index by);
+    std::vector<Index> united_vertices() const;
     Connectivity numbered(const std::vector<Index>& firsts);
 
     PieceKind kind_;
@@ -103,30 +107,32 @@ private:
     std::vector<Index> opposite_;  // ~e for the half-edge of an edge of a loop
     std::vector<Index> vertex_;    // of each corner, provisional
     std::unique_ptr<LoopEdge[]> edges_;   // three per triangle are enough
-    std::unique_ptr<Index[]> same_as_;    // of each provisional vertex: itself, or an earlier one
+    std::vector<std::pair<Index, Index>> same_;  // provisional vertices that are one
     Index n_edges_ = 0, n_vertices_ = 0;
     Index free_ = none;  // edges to be used again, linked by next
-    std::vector<Active> stack_;
+    Index gate_ = none;  // of the top loop
+    std::vector<Active> below_;  // the loops below it; in the end it is among them
 };
 
 // Once per triangle: inline.
+template <bool has_excesses>
 [[gnu::always_inline]] inline uint8_t Reverse::apply(Symbol symbol, int64_t meets) {
     --triangle_;
     Gate gate;
     switch (symbol) {
-        case C: gate = close(); break;
+        case C: gate = close<has_excesses>(); break;
         case L: gate = left(); break;
         case R: gate = right(); break;
         case S: gate = split(meets); break;
         default: gate = end();
     }
-    stack_.back() = {gate.edge, triangle_ - n_closed_};
+    gate_ = gate.edge;
     return gate.degree;
 }
 
 inline Index Reverse::top() const {
-    if (stack_.empty()) throw Corrupt("the word needs a loop where there is none");
-    return stack_.back().gate;
+    if (gate_ == none) throw Corrupt("the word needs a loop where there is none");
+    return gate_;
 }
 
 inline Index Reverse::take() {
@@ -141,10 +147,7 @@ inline void Reverse::release(Index e) {
     free_ = e;
 }
 
-inline Index Reverse::new_vertex() {
-    const Index vertex = n_vertices_++;
-    return same_as_[vertex] = vertex;
-}
+inline Index Reverse::new_vertex() { return n_vertices_++; }
 
 inline void Reverse::match(Index h, const LoopEdge& edge) {
     Index* const opposite = opposite_.data();  // in a register whatever is written
@@ -170,7 +173,7 @@ inline Reverse::Gate Reverse::end() {
     lie_on_loop(h + 1, r);
     lie_on_loop(h + 2, l);
     set_corners(a, b, c);
-    stack_.push_back({});
+    if (gate_ != none) below_.push_back(active(triangle_ + 1));
     return {g, 2};
 }
 
@@ -208,6 +211,7 @@ inline Reverse::Gate Reverse::end() {
     return {g, 2};
 }
 
+template <bool has_excesses>
 [[gnu::always_inline]] inline Reverse::Gate Reverse::close() {
     const Index n = top(), h = 3 * triangle_;
     const LoopEdge& gate = edges_[n];
@@ -219,11 +223,13 @@ inline Reverse::Gate Reverse::end() {
     set_corners(met.vertex, after.vertex, gate.vertex);
     match(h + 1, gate);
     match(h + 2, met);
-    const int excess = gate.degree - (kind_ == PieceKind::triangles ? 6 : 4);
     const uint8_t degree = add_edge(met);
     add_edge(after);
-    add_excess(met, excess);
-    add_excess(after, excess);
+    if constexpr (has_excesses) {
+        const int excess = gate.degree - (kind_ == PieceKind::triangles ? 6 : 4);
+        add_excess(met, excess);
+        add_excess(after, excess);
+    }
     met.half_edge = h;
     met.next = gate.next;
     after.previous = m;

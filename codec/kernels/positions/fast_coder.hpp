@@ -10,12 +10,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "fast.hpp"
 #include "fast_model.hpp"
+#include "lanes.hpp"
 #include "residual_digits.hpp"
 #include "surface.hpp"
 #include "two_part_stream.hpp"
@@ -32,71 +34,96 @@ public:
           n_faces_(static_cast<int32_t>(mesh.vertex.size() / 3)), vertices_(vertices.data()),
           n_vertices_(mesh.n_vertices) {}
 
-    // Faces are sifted in blocks for those that have a new vertex, without a branch that is hard to foresee.
+    // In blocks, in steps that do not wait for each other: faces are sifted for those that have a new vertex,
+    // what predicts these is looked up, and they are coded.
     void run() {
         constexpr int32_t block = 256;
-        std::array<int32_t, block> fresh;
+        std::array<Fresh, block> fresh;
+        std::array<Parents, block> parents;
         for (int32_t t = 0, n = 0; t < n_faces_;) {
             const int32_t end = std::min(t + block, n_faces_);
             size_t n_fresh = 0;
             for (; t < end; ++t) {
                 const int32_t largest = std::max({vertex_[3 * t], vertex_[3 * t + 1], vertex_[3 * t + 2]});
-                fresh[n_fresh] = t;
+                fresh[n_fresh] = {3 * t, n};
                 n_fresh += largest >= n;
                 n = std::max(n, largest + 1);
             }
-            for (size_t i = 0; i < n_fresh; ++i) face(3 * fresh[i]);
+            for (size_t i = 0; i < n_fresh; ++i) parents[i] = parents_of(fresh[i]);
+            for (size_t i = 0; i < n_fresh; ++i) {
+                if (parents[i].kind < without_parallelogram) predict(parents[i]);
+                else face(parents[i].gate);
+            }
         }
-        while (known_ < n_vertices_) from_latest(2);
+        while (known_ < n_vertices_) from_latest(without_parallelogram);
     }
 
 private:
-    void face(int32_t gate) {
-        if (vertex_[gate + 2] >= known_ && tip(gate)) return;
-        for (int32_t c = gate; c < gate + 3; ++c)
-            if (vertex_[c] >= known_) from_latest(c == gate ? 2 : 3);
+    static constexpr uint32_t without_parallelogram = 2;  // of kinds: 0 with one, 1 with two, 3 beside a neighbour
+
+    // A face of which some vertex is new, and how many vertices are known before.
+    struct Fresh {
+        int32_t gate, known;
+    };
+
+    // The vertices of the parallelogram a, b, o and, where kind is 1, of that of b, x, y; else these are others.
+    struct Parents {
+        int32_t a, b, o, x, y;
+        uint32_t kind;
+        int32_t gate;
+    };
+
+    // Without branches, which would be hard to foresee.  The first face of a component has none behind its gate.
+    Parents parents_of(Fresh face) const {
+        const int32_t gate = face.gate, known = face.known, behind = opposite_[gate], across = opposite_[gate + 1];
+        const int32_t a = vertex_[gate], b = vertex_[gate + 1], o = vertex_[previous(either(behind < 0, gate, behind))];
+        const bool one = (behind >= 0) & (vertex_[gate + 2] >= known) & (std::max({a, b, o}) < known);
+        // The apex y of the second parallelogram is behind the face on the right, which has x, the tip and b.
+        const int32_t right = either(across < 0, gate, across), beyond = opposite_[next(right)];
+        const int32_t x = vertex_[previous(right)], y = vertex_[previous(either(beyond < 0, gate, beyond))];
+        const bool two = (across >= 0) & (beyond >= 0) & (std::max(x, y) < known);
+        return {a, b, o, either(two, x, a), either(two, y, o), one ? static_cast<uint32_t>(two) : without_parallelogram, gate};
     }
 
-    // False if the face behind the gate is not known: the first of a component has none.
-    bool tip(int32_t gate) {
-        if (opposite_[gate] < 0) return false;
-        const int32_t a = vertex_[gate], b = vertex_[gate + 1], o = vertex_[previous(opposite_[gate])];
-        if (a >= known_ || b >= known_ || o >= known_) return false;
-        // The apex y of the second parallelogram is behind the face on the right, which has x, the tip and b.
-        const int32_t across = opposite_[gate + 1], right = across < 0 ? gate : across;
-        const int32_t x = vertex_[previous(right)], beyond = opposite_[next(right)];
-        const int32_t y = vertex_[previous(beyond < 0 ? gate : beyond)];
-        const bool second = (across >= 0) & (beyond >= 0) & (x < known_) & (y < known_);
-        const FastVertex &va = vertices_[a], &vb = vertices_[b], &vo = vertices_[o];
-        const FastVertex &vx = vertices_[second ? x : a], &vy = vertices_[second ? y : o];
-        std::array<uint32_t, 3> base;
-        for (size_t d = 0; d < 3; ++d) {
-            const uint32_t first = va.position[d] + vb.position[d] - vo.position[d];
-            const uint32_t other = vb.position[d] + vx.position[d] - vy.position[d];
-            base[d] = first + static_cast<uint32_t>(static_cast<int32_t>(other - first) >> 1);
-        }
-        code(second, base, mean(va.sizes, vb.sizes));
-        return true;
+    static int32_t either(bool first, int32_t a, int32_t b) { return b ^ ((a ^ b) & -static_cast<int32_t>(first)); }
+
+    void predict(const Parents& of) {
+        const FastVertex &a = vertices_[of.a], &b = vertices_[of.b];
+        const UintLanes pb = lanes(b), first = lanes(a) + pb - lanes(vertices_[of.o]);
+        const UintLanes other = pb + lanes(vertices_[of.x]) - lanes(vertices_[of.y]);
+        const UintLanes base = first + reinterpret_cast<UintLanes>(reinterpret_cast<IntLanes>(other - first) >> 1);
+        code(of.kind, base, mean(a.sizes, b.sizes));
+    }
+
+    void face(int32_t gate) {
+        for (int32_t c = gate; c < gate + 3; ++c)
+            if (vertex_[c] >= known_) from_latest(without_parallelogram + (c != gate));
     }
 
     // Without a parallelogram: from the vertex coded before, which is a neighbour for kind 3.
     void from_latest(size_t kind) {
-        Sizes& steps = steps_[kind - 2];
-        code(kind, known_ > 0 ? vertices_[known_ - 1].position : std::array<uint32_t, 3>{}, steps);
+        Sizes& steps = steps_[kind - without_parallelogram];
+        code(kind, known_ > 0 ? lanes(vertices_[known_ - 1]) : UintLanes{}, steps);
         steps = vertices_[known_ - 1].sizes;
         vertices_[known_ - 1].sizes = 0;
     }
 
-    void code(size_t kind, const std::array<uint32_t, 3>& base, Sizes expected) {
-        FastVertex& at = vertices_[known_];
+    // All lanes are written at once: what is read next is forwarded whole.
+    void code(size_t kind, UintLanes base, Sizes expected) {
+        FastVertex& at = vertices_[known_++];
         FastModel::Residuals e{};
         if constexpr (Coder::encoding) {
-            for (size_t d = 0; d < 3; ++d) e[d] = static_cast<int32_t>(at.position[d] - base[d]);
+            const UintLanes residual = lanes(at) - base;
+            for (size_t d = 0; d < 3; ++d) e[d] = static_cast<int32_t>(residual[d]);
         }
-        at.sizes = model_.code(coder_, kind, expected, e);
-        for (size_t d = 0; d < 3; ++d) at.position[d] = base[d] + static_cast<uint32_t>(e[d]);
-        ++known_;
+        const Sizes sizes = model_.code(coder_, kind, expected, e);
+        UintLanes position = base + reinterpret_cast<UintLanes>(IntLanes{e[0], e[1], e[2], 0});
+        position[3] = sizes;
+        std::memcpy(&at, &position, sizeof at);
     }
+
+    // The position; the last lane is of no account.
+    static UintLanes lanes(const FastVertex& vertex) { return std::bit_cast<UintLanes>(vertex); }
 
     Coder& coder_;
     const int32_t *opposite_, *vertex_;

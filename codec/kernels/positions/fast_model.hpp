@@ -76,7 +76,14 @@ public:
             found[d] = &meanings[x][token];
             escapes |= token + 1;
         }
-        if (escapes > escape_token) return code_surprises(coder, found, e);
+        if (escapes > escape_token) [[unlikely]] {
+            // Copies, so that these need not be in memory otherwise.
+            const std::array<const Meaning*, 3> meant = found;
+            Residuals surprises = e;
+            const Sizes sizes = code_surprises(coder, meant, surprises);
+            e = surprises;
+            return sizes;
+        }
         Sizes sizes = 0;
         coder.plain.together([&](auto bits) {
             for (size_t d = 0; d < 3; ++d) {

@@ -19,6 +19,7 @@ inline namespace EBZ_INSTRUCTIONS {
 
 using Lanes = float __attribute__((vector_size(16)));
 using IntLanes = int32_t __attribute__((vector_size(16)));
+using UintLanes = uint32_t __attribute__((vector_size(16)));
 using WideLanes = float __attribute__((vector_size(32)));
 using WideIntLanes = int32_t __attribute__((vector_size(32)));
 
