@@ -68,6 +68,11 @@ def corners_of_polygons(opposite: Annotated[NDArray[numpy.int32], dict(shape=(No
     offsets, and the corner of a triangle that each corner of the polygons is.
     """
 
+def cut_polygons(vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], offsets: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], across: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_vertices: int, way: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+    """
+    The half-edge across each of the triangles that predict positions, and the polygons' corner of each corner.
+    """
+
 def encode_gluing(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_copies: int, site: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
     """
     Which vertices of the pieces are one site; site: of each, numbered by first use.

@@ -11,7 +11,7 @@ from ebz.codec.attributes.plan import Plan
 from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
 from ebz.codec.order import OrderStreams
-from ebz.codec.positions import Method
+from ebz.codec.positions import Coding
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class EncodedMesh:
     n_vertices: int
     n_exceptions: int
     lattice: Lattice
-    method: Method
+    coding: Coding
     model: WordModel
     streams: Streams
     vertex_attributes: list[EncodedArray] = field(default_factory=list)

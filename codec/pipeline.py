@@ -95,7 +95,7 @@ def encode(
     order = replace(order, vertices=arrangement.vertices)
     points = points.take(arrangement.sites)
     n_along = len(arrangement.sites) if free is None else surface.n_vertices
-    stream, method = positions.encode(
+    stream, coding_of_positions = positions.encode(
         surface, points, n_along, stored.dtype, position_method(level)
     )
     exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
@@ -113,7 +113,7 @@ def encode(
         n_vertices=len(stored),
         n_exceptions=len(points.exceptions),
         lattice=points.lattice,
-        method=method,
+        coding=coding_of_positions,
         model=word.model,
         streams=Streams(
             word=word.word,
@@ -167,7 +167,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         split = welding.split(surface, streams.splits, n_vertices)
     report("positions", 1, N_STAGES)
     n_along = split.n_sites if streams.points is None else surface.n_vertices
-    integers = positions.decode(streams.positions, surface, n_along, encoded.method)
+    integers = positions.decode(streams.positions, surface, n_along, encoded.coding)
     with corrupt_at(encoded.place("points")):
         free = free_points.decode(streams.points, split.n_sites - n_along)
     if len(free):

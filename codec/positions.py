@@ -2,6 +2,7 @@
 
 import enum
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ import numpy.typing as npt
 from ebz.codec import _kernels, threads
 from ebz.codec.connectivity import Surface
 from ebz.codec.lattice import FloatLattice, Lattice, Points, SingleLattice
+
+Int32s = npt.NDArray[np.int32]
 
 
 class Method(enum.IntEnum):
@@ -31,46 +34,131 @@ FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 BELOW_LIGHT = {Method.MEDIUM: 7, Method.STRONG: 1}
 
 
+class Cut(enum.IntEnum):
+    """How polygons are cut to predict along; the numbers are those of Cut in the kernels."""
+
+    COMPLETING = 0
+    REGULAR = 1
+    TWICE = 2
+
+
+# Those that are tried; of the other methods the first.
+CUTS = {Method.LIGHT: (Cut.COMPLETING, Cut.TWICE), Method.STRONG: tuple(Cut)}
+MAX_TWICE = (2**31 - 1) // 6  # triangles of which half-edges of twice as many have 31 bits
+
+
+@dataclass(frozen=True)
+class Coding:
+    """How the positions of a mesh are coded; cut: of polygons."""
+
+    method: Method
+    cut: Cut = Cut.COMPLETING
+
+
+@dataclass(frozen=True)
+class Along:
+    """The triangles along which positions are predicted.
+
+    opposite, vertex: (3t,) the half-edge across and the vertex of each corner.  order: (n,) the
+    site of each vertex; None where they are numbered alike.
+    """
+
+    opposite: Int32s
+    vertex: Int32s
+    n_vertices: int
+    order: Int32s | None = None
+
+    @property
+    def arrays(self) -> tuple[Int32s, Int32s, int]:
+        """What the kernels take."""
+        return self.opposite, self.vertex, self.n_vertices
+
+
 def encode(
     surface: Surface, points: Points, n_along: int, dtype: np.dtype[Any], method: Method
-) -> tuple[bytes, Method]:
+) -> tuple[bytes, Coding]:
     """The shortest stream by the method, or by those that suit such points.
 
     n_along: how many points are coded, the first; those past the surface have no neighbours.
     """
-    values = points.integers[:n_along].reshape(-1)
+    values = points.integers[:n_along]
 
-    def by(chosen: Method) -> tuple[bytes, Method]:
-        return _kernels.encode_positions(*_arrays(surface), n_along, values, chosen), chosen
+    def by(chosen: Coding) -> tuple[bytes, Coding]:
+        along = _along(surface, n_along, chosen.cut)
+        placed = values if along.order is None else values[along.order]
+        return _kernels.encode_positions(*along.arrays, placed.reshape(-1), chosen.method), chosen
 
-    streams = threads.run(by, _candidates(points, dtype, method))
-    stream, chosen = min(streams, key=_length)
+    candidates = _cuts(surface, _candidates(points, dtype, method))
+    stream, coding = min(threads.run(by, candidates), key=_length)
     if not stream:  # more than the 32 bits of the fast and medium methods
         return encode(surface, points, n_along, dtype, Method.LIGHT)
-    if chosen != Method.LIGHT:
-        return stream, chosen
+    if coding.method != Method.LIGHT:
+        return stream, coding
     n_bits = 8 * len(stream) / max(n_along, 1)
-    others = [by(other) for other, few_bits in BELOW_LIGHT.items() if n_bits < few_bits]
-    return min([(stream, chosen), *(other for other in others if other[0])], key=_length)
+    few = [other for other, few_bits in BELOW_LIGHT.items() if n_bits < few_bits]
+    others = [other for other in map(by, _cuts(surface, few)) if other[0]]
+    return min([(stream, coding), *others], key=_length)
 
 
-def _length(stream: tuple[bytes, Method]) -> int:
+def _length(stream: tuple[bytes, Coding]) -> int:
     return len(stream[0])
 
 
-def decode(data: bytes, surface: Surface, n_vertices: int, method: Method) -> npt.NDArray[Any]:
+def decode(data: bytes, surface: Surface, n_vertices: int, coding: Coding) -> npt.NDArray[Any]:
     """(n, 3) int32 or int64 coordinates; whatever the bytes are, some come back."""
-    stream = np.frombuffer(data, np.uint8)
+    along = _along(surface, n_vertices, coding.cut)
+    decoded = _decode(np.frombuffer(data, np.uint8), along, coding.method)
+    if along.order is None:
+        return decoded
+    values = np.empty(decoded.shape, decoded.dtype)
+    values[along.order] = decoded
+    return values
+
+
+def _decode(stream: npt.NDArray[np.uint8], along: Along, method: Method) -> npt.NDArray[Any]:
     if method == Method.FAST:
-        return _kernels.decode_positions_fast(stream, *_arrays(surface), n_vertices)
+        return _kernels.decode_positions_fast(stream, *along.arrays)
     if method == Method.MEDIUM:
-        return _kernels.decode_positions_medium(stream, *_arrays(surface), n_vertices)
-    values = _kernels.decode_positions(stream, *_arrays(surface), n_vertices, method)
-    return values.reshape(-1, 3)
+        return _kernels.decode_positions_medium(stream, *along.arrays)
+    return _kernels.decode_positions(stream, *along.arrays, method).reshape(-1, 3)
 
 
-def _arrays(surface: Surface) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
-    return surface.opposite, surface.vertex
+def can_cut(n_triangles: int, way: Cut) -> bool:
+    """Whether the kernels can number the half-edges of so many triangles."""
+    return way != Cut.TWICE or n_triangles <= MAX_TWICE
+
+
+def _cuts(surface: Surface, methods: Sequence[Method]) -> list[Coding]:
+    """The methods with each way to cut polygons that is tried for them."""
+    if surface.polygons is None:
+        return [Coding(method) for method in methods]
+    n_triangles = len(surface.opposite) // 3
+    return [
+        Coding(method, way)
+        for method in methods
+        for way in CUTS.get(method, (Cut.COMPLETING,))
+        if can_cut(n_triangles, way)
+    ]
+
+
+def _along(surface: Surface, n_vertices: int, way: Cut) -> Along:
+    """Of n vertices, those of the surface first."""
+    polygons = surface.polygons
+    if polygons is None:
+        return Along(surface.opposite, surface.vertex, n_vertices)
+    vertex = surface.vertex[polygons.corner]
+    opposite, corner = _kernels.cut_polygons(
+        vertex,
+        polygons.offsets.astype(np.int32),
+        polygons.across(surface.opposite),
+        n_vertices,
+        way,
+    )
+    number, order = _kernels.number_by_first_use(vertex[corner], n_vertices)
+    is_left = np.ones(n_vertices, bool)
+    is_left[order] = False
+    rest = np.flatnonzero(is_left).astype(np.int32)
+    return Along(opposite, number, n_vertices, np.concatenate([order, rest]))
 
 
 def float_method(lattice: Lattice, itemsize: int) -> Method | None:

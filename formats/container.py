@@ -27,7 +27,7 @@ from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
 from ebz.codec.order import OrderStreams
 from ebz.codec.polygons import PolygonCounts
-from ebz.codec.positions import FLOAT_METHODS, Method
+from ebz.codec.positions import FLOAT_METHODS, Coding, Cut, Method, can_cut
 from ebz.formats import chunks, layout, records, tables
 from ebz.formats.chunks import Chunk
 
@@ -37,6 +37,7 @@ ORDER_CHUNKS = (layout.VERTEX_ORDER, layout.FACE_ORDER, layout.ROTATIONS)
 ATTRIBUTES = (layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE, layout.CORNER_ATTRIBUTE)
 REPEATED = {*ATTRIBUTES, layout.ELEMENT}
 MAX_COUNT = 2**63
+N_METHODS = 64  # the byte of the method is that, plus this for each further way to cut polygons
 
 
 def write(encoded: EncodedMesh, *, embed_model: bool = False) -> list[bytes]:
@@ -128,9 +129,8 @@ def _parse(
     with corrupt_at(found[layout.HEADER].where):
         header = SimpleNamespace(**layout.parse(layout.Header, found[layout.HEADER].payload))
         _check_header(header)
-        coordinates = _parse_lattice(header)
-        method = _parse_method(header, coordinates)
-        polygons = _parse_polygons(header)
+        coordinates, polygons = _parse_lattice(header), _parse_polygons(header)
+        coding = _parse_coding(header, coordinates)
     _check_presence(header, found)
 
     def payload(kind: bytes) -> bytes:
@@ -151,7 +151,7 @@ def _parse(
         n_vertices=header.n_vertices,
         n_exceptions=header.n_exceptions,
         lattice=coordinates,
-        method=method,
+        coding=coding,
         model=tables.read(header.model, found.get(layout.MODEL)),
         streams=Streams(
             word=payload(layout.WORD),
@@ -204,14 +204,28 @@ def _header(encoded: EncodedMesh, model: int) -> bytes:
             "n_specials": counts.n_specials,
             "n_copies": counts.n_copies,
             "n_exceptions": encoded.n_exceptions,
-            "has_polygons": counts.polygons is not None,
+            "face_size": _face_size(counts),
             "polygons": counts.polygons and vars(counts.polygons),
             "model": model,
-            "method": encoded.method,
+            "method": encoded.coding.method + encoded.coding.cut * N_METHODS,
             "lattice": layout.LATTICE_KINDS.index(encoded.lattice.kind),
             "parameters": vars(encoded.lattice),
         },
     )
+
+
+def _face_size(counts: WordCounts) -> int:
+    """Where it tells the counts of polygons."""
+    if counts.polygons is None:
+        return layout.TRIANGLES
+    size = counts.polygons.n_corners // max(counts.polygons.n_faces, 1)
+    is_told = 3 < size < 256 and counts.polygons == _polygons_of(size, counts.n_triangles)
+    return size if is_told else layout.MIXED
+
+
+def _polygons_of(size: int, n_triangles: int) -> PolygonCounts:
+    n_faces = n_triangles // (size - 2)
+    return PolygonCounts(n_faces, 0, size * n_faces)
 
 
 def _check_header(header: Any) -> None:
@@ -233,14 +247,16 @@ def _check_header(header: Any) -> None:
 
 
 def _parse_polygons(header: Any) -> PolygonCounts | None:
-    if not header.has_polygons:
+    if header.face_size == layout.TRIANGLES:
         return None
-    if header.has_polygons > 1:
-        raise VersionError(f"header: faces of unknown kind {header.has_polygons}")
+    if header.face_size in layout.NO_SIZES:
+        raise VersionError(f"header: faces of unknown kind {header.face_size}")
     if layout.ADAPTIVE_MODELS.get(header.model, Effort.DIRECT) == Effort.DIRECT:
         raise CorruptError(f"polygons under model {header.model}")
-    n_faces, n_empty, n_corners = (header.polygons[k] for k in ("n_faces", "n_empty", "n_corners"))
     n_triangles = header.n_symbols + header.n_closed
+    if header.face_size != layout.MIXED:
+        return _polygons_of(header.face_size, n_triangles)
+    n_faces, n_empty, n_corners = (header.polygons[k] for k in ("n_faces", "n_empty", "n_corners"))
     n_runs = n_faces - n_empty
     if n_faces > MAX_FACES or not 0 <= n_runs <= n_triangles:
         raise CorruptError(f"{n_faces} polygons, {n_empty} of them empty")
@@ -272,14 +288,18 @@ def _check_presence(header: Any, found: dict[bytes, Chunk]) -> None:
             raise CorruptError(f"{found[kind].where}: the header has no use for it")
 
 
-def _parse_method(header: Any, lattice: Lattice) -> Method:
+def _parse_coding(header: Any, lattice: Lattice) -> Coding:
+    way, number = divmod(header.method, N_METHODS)
     in_floats = FLOAT_METHODS[4 if isinstance(lattice, SingleLattice) else header.itemsize]
-    if header.method in FLOAT_METHODS.values() and header.method != in_floats:
-        raise CorruptError(f"positions of {header.itemsize} bytes by method {header.method}")
+    if number in FLOAT_METHODS.values() and number != in_floats:
+        raise CorruptError(f"positions of {header.itemsize} bytes by method {number}")
     try:
-        return Method(header.method)
+        coding = Coding(Method(number), Cut(way))
     except ValueError:
         raise VersionError(f"header: unknown method {header.method} of positions") from None
+    if way and not (header.face_size and can_cut(header.n_symbols + header.n_closed, coding.cut)):
+        raise CorruptError("faces that cannot be cut otherwise")
+    return coding
 
 
 def _parse_lattice(header: Any) -> Lattice:

@@ -158,6 +158,10 @@ DTYPE_SIZES = (4, 8)
 # Of the dtype of the coordinates.
 Corner = IfThenElse(this._root.itemsize == 4, Array(3, Float32l), Array(3, Float64l))
 
+# Of faces: all are triangles, or of any size; else the size of all.
+TRIANGLES, MIXED = range(2)
+NO_SIZES = (2, 3)
+
 Header = Struct(
     "itemsize" / Byte,
     "n_vertices" / VarInt,
@@ -167,10 +171,10 @@ Header = Struct(
     "n_specials" / VarInt,
     "n_copies" / VarInt,
     "n_exceptions" / VarInt,
-    "has_polygons" / Byte,
+    "face_size" / Byte,
     "polygons"
     / If(
-        this.has_polygons == 1,
+        this.face_size == MIXED,
         Struct("n_faces" / VarInt, "n_empty" / VarInt, "n_corners" / VarInt),
     ),
     "model" / Byte,

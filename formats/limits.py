@@ -8,6 +8,7 @@ from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
 from ebz.codec.order import Method as OrderMethod
+from ebz.codec.positions import Cut
 from ebz.codec.scene import in_part
 from ebz.codec.scenes import EncodedScene
 
@@ -88,6 +89,8 @@ def declared_size(encoded: EncodedMesh) -> int:
         for array in encoded.corner_attributes
     )
     n_faces = max(counts.n_faces, counts.n_triangles)
+    if counts.polygons:
+        n_faces += counts.n_triangles * (2 if encoded.coding.cut == Cut.TWICE else 1)
     size += BYTES_PER_FACE * n_faces + BYTES_PER_VERTEX * encoded.n_vertices
     return size + text_size + BYTES_PER_INTEGER * n_integers
 

@@ -9,16 +9,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import connectivity, cycles, pipeline
+from ebz.codec import _kernels, connectivity, cycles, pipeline
 from ebz.codec.errors import OptionError
 from ebz.codec.fitting import Precision
 from ebz.codec.levels import word_effort
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.adaptive import Effort
+from ebz.codec.positions import Cut
 from ebz.codec.sample import random_triangulation
 from ebz.formats.polygons import fanned
 from tests import polygons
 from tests.meshes import rngs
+from tests.oracles.cut import Cutter, opposites
 from tests.polygons import faces_of, least_turn, mesh_of, polygon_meshes, quad_grid
 
 
@@ -173,6 +175,44 @@ def test_irregular_quads_cost_less_than_their_triangles(level):
     ours, theirs = connectivity_bytes(mesh, level), connectivity_bytes(cut, level)
     assert ours < 0.8 * theirs
     assert ours < 0.5 * (theirs + marks / 8)
+
+
+@settings(max_examples=200, deadline=None)
+@given(polygon_meshes(), st.sampled_from(Cut))
+def test_polygons_are_cut_as_specified(mesh, cut):
+    _, surface, _ = connectivity.encode(mesh.corners, mesh.n_vertices, [Effort.FAST], mesh.offsets)
+    polygons, n_vertices = surface.polygons, surface.n_vertices
+    assert polygons is not None
+    vertex, across = surface.vertex[polygons.corner], polygons.across(surface.opposite)
+    offsets = polygons.offsets.astype(np.int32)
+    opposite, corner = _kernels.cut_polygons(vertex, offsets, across, n_vertices, cut)
+    twin = Cutter(vertex.tolist(), offsets.tolist(), across.tolist(), cut)
+    triangles = twin.triangles()
+    assert corner.reshape(-1, 3).tolist() == [list(t) for t in triangles]
+    assert opposite.tolist() == opposites(triangles, twin.across, 2 if cut == Cut.TWICE else 1)
+
+
+def geometry_bytes(mesh: Mesh, level: int, bits: int) -> int:
+    encoded, _ = pipeline.encode(mesh, level=level, precision=Precision(bits=bits))
+    return len(encoded.streams.positions)
+
+
+def wavy(grid: Mesh) -> Mesh:
+    x, y, _ = grid.vertices.T
+    z = 4 * np.sin(x / 7) + 5 * np.cos(y / 11 + x / 19)
+    return mesh_of(faces_of(grid), np.stack([x, y, z], axis=1))
+
+
+@pytest.mark.parametrize("level", [1, 3, 6, 9])
+@pytest.mark.parametrize("bits", [10, 12, 14])
+def test_regular_quads_cost_no_more_than_their_triangles(level, bits):
+    flat = quad_grid(50, 50)
+    for mesh in (flat, wavy(flat)):
+        sizes = [len(ebz.compress(m, level=level, bits=bits)) for m in (mesh, fanned(mesh))]
+        assert sizes[0] <= sizes[1]
+    assert geometry_bytes(wavy(flat), level, bits) < 0.9 * geometry_bytes(
+        fanned(wavy(flat)), level, bits
+    )
 
 
 def test_order_of_polygons_is_within_the_uniform_bound():

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from ebz.codec import _kernels, positions
 from ebz.codec.connectivity import Surface, traverse
-from ebz.codec.positions import Method
+from ebz.codec.positions import Coding, Method
 from ebz.codec.sample import glued_grid
 from tests.meshes import face_lists, rngs
 from tests.oracles import medium
@@ -49,7 +49,7 @@ def encode(surface: Surface, n: int, coordinates: Values, method: Method) -> byt
 
 
 def decode(data: bytes, surface: Surface, n: int, method: Method) -> Values:
-    return positions.decode(data, surface, n, method).reshape(-1)
+    return positions.decode(data, surface, n, Coding(method)).reshape(-1)
 
 
 @settings(deadline=None)

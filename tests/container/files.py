@@ -15,10 +15,10 @@ Chunks = list[tuple[bytes, bytes]]
 
 HEADER_FIELDS = [
     *("itemsize", "n_vertices", "n_symbols", "n_closed", "n_single", "n_specials"),
-    *("n_copies", "n_exceptions", "has_polygons", "model", "method", "lattice"),
+    *("n_copies", "n_exceptions", "face_size", "model", "method", "lattice"),
 ]
-POLYGON_FIELDS = ["n_polygons", "n_empty", "n_polygon_corners"]  # behind has_polygons, if it is 1
-BYTES = {"itemsize", "has_polygons", "model", "method", "lattice"}
+POLYGON_FIELDS = ["n_polygons", "n_empty", "n_polygon_corners"]  # behind face_size, if it is 1
+BYTES = {"itemsize", "face_size", "model", "method", "lattice"}
 
 
 def rich_mesh() -> ebz.Mesh:
@@ -137,7 +137,7 @@ def read_header(data: bytes) -> tuple[dict[str, int], bytes]:
     payload, at, fields = split(data)[0][1], 0, {}
     for name in HEADER_FIELDS:
         fields[name], at = (payload[at], at + 1) if name in BYTES else read_varint(payload, at)
-        if name == "has_polygons" and fields[name] == 1:
+        if name == "face_size" and fields[name] == 1:
             for counted in POLYGON_FIELDS:
                 fields[counted], at = read_varint(payload, at)
     return fields, payload[at:]

@@ -305,7 +305,7 @@ def test_polygons_that_their_triangles_cannot_make_are_refused(changes):
 
 
 def test_faces_of_another_kind_need_another_reader():
-    damaged = with_header(FILES["box"], has_polygons=2)
+    damaged = with_header(FILES["box"], face_size=2)
     assert "unknown kind 2" in error(damaged, ebz.VersionError)
 
 

@@ -1,4 +1,5 @@
 // Faces of polygons <-> words with marks.
+#include "../polygons/cut.hpp"
 #include "../polygons/polygons.hpp"
 #include "word.hpp"
 #include "modules.hpp"
@@ -49,6 +50,15 @@ std::tuple<Array<int32_t>, Array<int32_t>> corners_of_polygons(const Input<int32
     return {to_numpy(std::move(corners.offsets)), to_numpy(std::move(corners.corner))};
 }
 
+std::tuple<Array<int32_t>, Array<int32_t>> cut_polygons(const Input<int32_t>& vertex, const Input<int32_t>& offsets,
+                                                        const Input<int32_t>& across, int32_t n_vertices, int way) {
+    ebz::polygons::Triangles triangles = without_gil([&] {
+        return ebz::polygons::cut(ebz::PolygonFaces(view(vertex), view(offsets)), view(across), n_vertices,
+                                  static_cast<ebz::polygons::Cut>(way));
+    });
+    return {to_numpy(std::move(triangles.opposite)), to_numpy(std::move(triangles.corner))};
+}
+
 }  // namespace
 
 void bind_polygons(nb::module_& m) {
@@ -61,6 +71,8 @@ void bind_polygons(nb::module_& m) {
           "n_specials"_a, "effort"_a, "What decode_adaptive gives, and the marks.");
     m.def("corners_of_polygons", &corners_of_polygons, "opposite"_a, "marks"_a,
           "offsets, and the corner of a triangle that each corner of the polygons is.");
+    m.def("cut_polygons", &cut_polygons, "vertex"_a, "offsets"_a, "across"_a, "n_vertices"_a, "way"_a,
+          "The half-edge across each of the triangles that predict positions, and the polygons' corner of each corner.");
 }
 
 }  // namespace ebz::binding
