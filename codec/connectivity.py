@@ -172,7 +172,7 @@ def decode(
     counts: WordCounts,
     model: WordModel,
     *,
-    place: Callable[[str], str] = str,
+    place: Callable[[str], object] = str,
 ) -> tuple[EncodedWord, Surface]:
     """The symbols and the surface of an encoded word; raises CorruptError where they contradict.
 
@@ -231,7 +231,7 @@ def _decode_word(
     special_integers: bytes,
     counts: WordCounts,
     model: WordModel,
-    place: Callable[[str], str],
+    place: Callable[[str], object],
 ) -> tuple[tuple[npt.NDArray[np.uint8], Int32s, Int32s, int], Int64s, PolygonCorners | None]:
     data = np.frombuffer(word, np.uint8)
     sizes = counts.n_symbols, counts.n_closed, counts.n_single

@@ -92,7 +92,7 @@ class Streams:
 class EncodedMesh:
     """Everything from which `pipeline.decode` restores a mesh.
 
-    places: where the parts that errors speak of are in the file, by name.
+    places: what names the place in the file of each part that errors speak of, by name.
     """
 
     dtype: np.dtype[Any]
@@ -109,8 +109,8 @@ class EncodedMesh:
     elements: list[EncodedElement] = field(default_factory=list)
     metadata: EncodedText | None = None
     digest: bytes = b""
-    places: Mapping[str, str] = field(default_factory=dict)
+    places: Mapping[str, object] = field(default_factory=dict)
 
-    def place(self, part: str) -> str:
+    def place(self, part: str) -> object:
         """Where in the file a part is: chunk and offset, the part's name where there is no file."""
         return self.places.get(part, part)

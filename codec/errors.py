@@ -39,8 +39,8 @@ class CorruptError(EbzError):
 class corrupt_at:  # noqa: N801 (used like a function)
     """Put the place in front of the message of a CorruptError that is raised within."""
 
-    def __init__(self, place: str) -> None:
-        self._place = place
+    def __init__(self, place: object) -> None:
+        self._place = place  # only an error is told in words
 
     def __enter__(self) -> None:
         pass

@@ -54,6 +54,7 @@ class SingleLattice:
         singles = np.where(np.isnan(coordinates), 0, coordinates).astype(np.float32)
         return FloatLattice().integers(singles)
 
+    @np.errstate(all="ignore")
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
         singles = FloatLattice().coordinates(integers, np.dtype(np.float32))
         written = _kernels.write_singles(singles.reshape(-1), self.digits)
@@ -72,6 +73,7 @@ class DecimalLattice:
         with np.errstate(invalid="ignore", over="ignore"):
             return _to_integers(coordinates.astype(np.float64) * 10.0**self.digits)
 
+    @np.errstate(all="ignore")
     def coordinates(self, integers: Integers, dtype: np.dtype[Any]) -> Floats:
         return (integers / 10.0**self.digits).astype(dtype)
 
@@ -166,11 +168,11 @@ def taken(values: npt.NDArray[Any], rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return np.take(values, rows, axis=0, mode="clip")
 
 
-@np.errstate(all="ignore")
 def restore(points: Points, dtype: np.dtype[Any], exact: Floats) -> Floats:
     """The (n, 3) coordinates that decoding yields; `exact` holds the exceptions in order."""
     coordinates = points.lattice.coordinates(points.integers, dtype)
-    coordinates.reshape(-1)[points.exceptions] = exact
+    if len(exact):
+        coordinates.reshape(-1)[points.exceptions] = exact
     return coordinates
 
 

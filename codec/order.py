@@ -156,7 +156,7 @@ def encode(source: SourceOrder, known: "Known") -> OrderStreams:
 
 
 def decode(
-    streams: OrderStreams, known: "Known", *, place: Callable[[str], str] = str
+    streams: OrderStreams, known: "Known", *, place: Callable[[str], object] = str
 ) -> SourceOrder:
     """The order; whatever the bytes are, permutations come back or CorruptError is raised.
 

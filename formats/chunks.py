@@ -7,8 +7,6 @@ from typing import NamedTuple
 from ebz.codec.errors import CorruptError, NotEbzError, TruncatedError, VersionError
 from ebz.formats import layout
 
-# A length of 64 bits takes ten bytes.
-MAX_HEAD = 11
 CRC_SIZE = 4
 
 
@@ -20,8 +18,7 @@ class Chunk(NamedTuple):
     offset: int
     size: int  # with head and checksum
 
-    @property
-    def where(self) -> str:
+    def __str__(self) -> str:
         return f"chunk {self.type.decode('latin-1')!r} at offset {self.offset}"
 
 
@@ -72,7 +69,7 @@ def begin(data: memoryview) -> int:
 def _read_one(data: memoryview, offset: int) -> Chunk:
     kind = bytes(data[offset : offset + 1])
     try:
-        length, size = layout.read_varint(data[offset + 1 : offset + MAX_HEAD])
+        length, size = layout.read_varint(data, offset + 1)
     except ValueError:
         raise CorruptError(f"chunk at offset {offset}: its length is malformed") from None
     except IndexError:
@@ -86,5 +83,5 @@ def _read_one(data: memoryview, offset: int) -> Chunk:
         )
     chunk = Chunk(kind, bytes(data[start:end]), offset, end + CRC_SIZE - offset)
     if zlib.crc32(data[offset:end]) != int.from_bytes(data[end : end + CRC_SIZE], "little"):
-        raise CorruptError(f"{chunk.where}: checksum mismatch")
+        raise CorruptError(f"{chunk}: checksum mismatch")
     return chunk

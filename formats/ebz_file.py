@@ -37,7 +37,7 @@ def read(data: memoryview, *, memory_limit: int) -> Encoded:
 
 
 def _read_scene(data: memoryview, chunk: Chunk, memory_limit: int) -> EncodedScene:
-    with corrupt_at(chunk.where):
+    with corrupt_at(chunk):
         head = layout.parse(layout.Scene, chunk.payload)
         text = records.parse_text(head.text) if head.text.size else None
         check_text(text)
@@ -48,7 +48,7 @@ def _read_scene(data: memoryview, chunk: Chunk, memory_limit: int) -> EncodedSce
             part, end = container.read(data, end)
         parts.append(part)
     chunks.check_end(data, end)
-    scene = EncodedScene(parts, text, chunk.where)
+    scene = EncodedScene(parts, text, str(chunk))
     check_memory(scene_size(scene) + 2 * len(data), memory_limit)
     return scene
 

@@ -1,4 +1,7 @@
-"""The bytes of an .ebz file, declared with construct; FORMAT.md is the specification in prose."""
+"""The bytes of an .ebz file, declared with construct; FORMAT.md is the specification in prose.
+
+The header, which every file has, is in header.py.
+"""
 
 from typing import Any
 
@@ -13,7 +16,6 @@ from construct import (
     ConstructError,
     Container,
     Enum,
-    Float32l,
     Float64l,
     GreedyBytes,
     If,
@@ -22,7 +24,6 @@ from construct import (
     Int16ul,
     Int64sl,
     IntegerError,
-    Pass,
     Prefixed,
     PrefixedArray,
     StreamError,
@@ -92,14 +93,14 @@ class _VarInt(Construct):  # type: ignore[misc]
         return value
 
 
-def read_varint(data: bytes | memoryview) -> tuple[int, int]:
-    """The integer at the start of data, and its size in bytes.
+def read_varint(data: bytes | memoryview, at: int = 0) -> tuple[int, int]:
+    """The integer there, and its size in bytes.
 
     Raises IndexError where the data ends within it and ValueError where it is too long.
     """
     value = 0
     for i in range(MAX_VARINT):
-        byte = data[i]
+        byte = data[at + i]
         value |= (byte & 0x7F) << 7 * i
         if byte < 0x80:
             return value, i + 1
@@ -151,49 +152,6 @@ class Struct(construct.Struct):  # type: ignore[misc]
             inner[name] = outer[name]
         return inner
 
-
-LATTICE_KINDS = ("float", "decimal", "box", "step", "grid", "single")
-DTYPE_SIZES = (4, 8)
-
-# Of the dtype of the coordinates.
-Corner = IfThenElse(this._root.itemsize == 4, Array(3, Float32l), Array(3, Float64l))
-
-# Of faces: all are triangles, or of any size; else the size of all.
-TRIANGLES, MIXED = range(2)
-NO_SIZES = (2, 3)
-
-Header = Struct(
-    "itemsize" / Byte,
-    "n_vertices" / VarInt,
-    "n_symbols" / VarInt,
-    "n_closed" / VarInt,
-    "n_single" / VarInt,
-    "n_specials" / VarInt,
-    "n_copies" / VarInt,
-    "n_exceptions" / VarInt,
-    "face_size" / Byte,
-    "polygons"
-    / If(
-        this.face_size == MIXED,
-        Struct("n_faces" / VarInt, "n_empty" / VarInt, "n_corners" / VarInt),
-    ),
-    "model" / Byte,
-    "method" / Byte,
-    "lattice" / Byte,
-    "parameters"
-    / Switch(
-        this.lattice,
-        {
-            LATTICE_KINDS.index("float"): Pass,
-            LATTICE_KINDS.index("decimal"): Struct("digits" / Byte),
-            LATTICE_KINDS.index("box"): Struct("bits" / Byte, "origin" / Corner, "side" / Float64l),
-            LATTICE_KINDS.index("step"): Struct("max_error" / Float64l),
-            LATTICE_KINDS.index("grid"): Struct("origin" / Array(3, Float64l), "step" / Float64l),
-            LATTICE_KINDS.index("single"): Struct("digits" / Byte),
-        },
-    ),
-    If(this.lattice < len(LATTICE_KINDS), Terminated),
-)
 
 # Model 0 is the table of the file's model chunk; the other models are built in and never change.
 INLINE_MODEL = 0

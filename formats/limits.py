@@ -44,9 +44,9 @@ def check_text(text: EncodedText | None) -> int:
     """The memory that a text takes; raises CorruptError where it exceeds its stream."""
     if text is None:
         return 0
-    _check("characters", text.n_bytes, 8 * CHEAPEST_LEARNT, text.data)
+    _check("characters", text.n_bytes, 8 * CHEAPEST_LEARNT, len(text.data))
     if text.n_raw > len(text.raw):
-        _check("bytes of byte strings", text.n_raw, 8 * CHEAPEST_LEARNT, text.raw)
+        _check("bytes of byte strings", text.n_raw, 8 * CHEAPEST_LEARNT, len(text.raw))
     return BYTES_PER_CHARACTER * text.n_bytes + 4 * text.n_raw
 
 
@@ -64,13 +64,12 @@ def declared_size(encoded: EncodedMesh) -> int:
     counts, streams = encoded.counts, encoded.streams
     with corrupt_at(encoded.place("header")):
         _check_symbols(encoded)
-        _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, streams.gluing)
+        _check("copies", counts.n_copies, 2 * CHEAPEST_BIT, len(streams.gluing))
         n_split = 3 * counts.n_triangles if streams.splits is not None else 0
         n_coded = max(0, encoded.n_vertices - n_split)
-        _check(
-            "vertices", n_coded, 3 * CHEAPEST_DECISION, streams.positions + (streams.points or b"")
-        )
-        _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, streams.exception_rows)
+        n_bytes = len(streams.positions) + len(streams.points or b"")
+        _check("vertices", n_coded, 3 * CHEAPEST_DECISION, n_bytes)
+        _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, len(streams.exception_rows))
     n_coded = counts.n_faces - (counts.polygons.n_empty if counts.polygons else 0)
     _check_order("face order", n_coded - 1, streams.order.faces, encoded)
     _check_order("rotations", n_coded, streams.order.rotations, encoded)
@@ -98,7 +97,7 @@ def declared_size(encoded: EncodedMesh) -> int:
 def _check_order(part: str, count: int, stream: bytes | None, encoded: EncodedMesh) -> None:
     if stream and stream[0] != OrderMethod.IDENTITY:
         with corrupt_at(encoded.place(part)):
-            _check("faces", count, CHEAPEST_DECISION, stream[1:])
+            _check("faces", count, CHEAPEST_DECISION, len(stream) - 1)
 
 
 def _check_symbols(encoded: EncodedMesh) -> None:
@@ -106,21 +105,21 @@ def _check_symbols(encoded: EncodedMesh) -> None:
     if isinstance(model, AnyTable):
         cheapest = math.log2(TOTAL / int(model.frequencies.max()))
         n_coded = max(0, counts.n_symbols - counts.n_specials)
-        _check("symbols", n_coded, cheapest, streams.word)
-        _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, streams.special_integers)
+        _check("symbols", n_coded, cheapest, len(streams.word))
+        _check("special S", counts.n_specials, 2 * CHEAPEST_BIT, len(streams.special_integers))
         return
     if 3 * counts.n_single > encoded.n_vertices + counts.n_copies:
         raise CorruptError(f"header: {counts.n_single} single triangles have too few vertices")
     # The symbols of single triangles and the first are determined; marks of polygons are not.
     n_determined = 1 if counts.polygons else counts.n_single + 1
     n_coded = max(counts.n_symbols - n_determined, counts.n_specials)
-    _check("symbols", n_coded, CHEAPEST_SYMBOL, streams.word)
+    _check("symbols", n_coded, CHEAPEST_SYMBOL, len(streams.word))
 
 
-def _check(what: str, count: int, bits_each: float, stream: bytes) -> None:
-    available = 8 * len(stream) + SLACK_BITS if stream else 0
+def _check(what: str, count: int, bits_each: float, n_bytes: int) -> None:
+    available = 8 * n_bytes + SLACK_BITS if n_bytes else 0
     if count * bits_each > available * (1 + 1e-9):
-        raise CorruptError(f"{count} {what} do not fit in {len(stream)} bytes")
+        raise CorruptError(f"{count} {what} do not fit in {n_bytes} bytes")
 
 
 def _elements_size(element: EncodedElement) -> int:
@@ -138,8 +137,10 @@ def _arrays_size(arrays: list[EncodedArray], n: int) -> int:
         entry = array.entry_size
         with corrupt_at(array.place):
             name = ", ".join(array.names)
-            _check(f"values of {name!r}", n * array.n_components, CHEAPEST_DECISION, array.data)
-            _check("labels", array.plan.n_labels, CHEAPEST_BIT, array.plan.labels)
+            _check(
+                f"values of {name!r}", n * array.n_components, CHEAPEST_DECISION, len(array.data)
+            )
+            _check("labels", array.plan.n_labels, CHEAPEST_BIT, len(array.plan.labels))
         size += n * (3 * entry + BYTES_PER_COMPONENT * array.n_components)
         size += BYTES_PER_INTEGER * array.plan.n_labels
     return size

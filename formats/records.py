@@ -24,8 +24,8 @@ def attribute(array: EncodedArray) -> bytes:
 
 def parse_attribute(chunk: Chunk) -> EncodedArray:
     """The attribute of a chunk; raises CorruptError."""
-    with corrupt_at(chunk.where):
-        return _parse_attribute(layout.parse(layout.Attribute, chunk.payload), chunk.where)
+    with corrupt_at(chunk):
+        return _parse_attribute(layout.parse(layout.Attribute, chunk.payload), str(chunk))
 
 
 def element(rows: EncodedElement) -> bytes:
@@ -46,7 +46,7 @@ def element(rows: EncodedElement) -> bytes:
 
 def parse_element(chunk: Chunk) -> EncodedElement:
     """The element of a chunk; raises CorruptError."""
-    where = chunk.where
+    where = str(chunk)
     with corrupt_at(where):
         parsed = layout.parse(layout.Element, chunk.payload)
         if max(parsed.n_rows, parsed.n_corners) >= MAX_COUNT or len(parsed.lengths) > 1:

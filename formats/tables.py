@@ -62,7 +62,7 @@ def read(number: int, chunk: Chunk | None) -> WordModel:
     if number != layout.INLINE_MODEL:
         return _built_in(layout.MODELS[number])
     assert chunk is not None, "the container checks that it is there"
-    with corrupt_at(chunk.where):
+    with corrupt_at(chunk):
         try:
             table = _parse(chunk)
             table.check()
@@ -82,7 +82,7 @@ def _parse(chunk: Chunk) -> AnyTable:
         top = np.frombuffer(parsed.top, np.uint8).reshape(-1, parsed.n_conflicts)
         step = np.frombuffer(parsed.step, np.uint8).reshape(-1, parsed.n_lengths)
         return StackTable(_name(parsed), _frequencies(parsed), top, step, parsed.bottom)
-    raise VersionError(f"{chunk.where}: unknown kind of model")
+    raise VersionError(f"{chunk}: unknown kind of model")
 
 
 def _name(parsed: Any) -> str:

@@ -1,0 +1,258 @@
+"""The header of a mesh <-> its bytes: counts, model, method and lattice.
+
+Without construct, which takes longer than a small mesh does to decode.
+"""
+
+import math
+import struct
+from dataclasses import astuple
+from functools import cache
+from typing import Any, NamedTuple
+
+from ebz.codec.connectivity import WordCounts
+from ebz.codec.encoded import EncodedMesh
+from ebz.codec.errors import CorruptError, VersionError
+from ebz.codec.lattice import (
+    MAX_BITS,
+    MAX_DIGITS,
+    MAX_SINGLE_DIGITS,
+    BoxLattice,
+    DecimalLattice,
+    FloatLattice,
+    GridLattice,
+    Lattice,
+    SingleLattice,
+    StepLattice,
+)
+from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
+from ebz.codec.models.adaptive import Effort
+from ebz.codec.polygons import PolygonCounts
+from ebz.codec.positions import FLOAT_METHODS, Coding, Cut, Method, can_cut
+from ebz.formats import layout, tables
+
+MAX_COUNT = 2**63
+# Of faces: all are triangles, or of any size; else the size of all.
+TRIANGLES, MIXED = range(2)
+NO_SIZES = (2, 3)
+N_METHODS = 64  # the byte of the method is that, plus this for each further way to cut polygons
+DTYPE_SIZES = (4, 8)
+# In the order of their numbers.
+PARAMETERS = {
+    FloatLattice: "",
+    DecimalLattice: "B",
+    BoxLattice: "B 3{corner} d",  # the corner is of the dtype of the coordinates
+    StepLattice: "d",
+    GridLattice: "3d d",
+    SingleLattice: "B",
+}
+LATTICES = tuple(PARAMETERS)
+
+
+class Header(NamedTuple):
+    """The fields in the order of the file.
+
+    polygons: as face_size and counts tell, None where all faces are triangles.
+    """
+
+    itemsize: int
+    n_vertices: int
+    n_symbols: int
+    n_closed: int
+    n_single: int
+    n_specials: int
+    n_copies: int
+    n_exceptions: int
+    polygons: PolygonCounts | None
+    model: int
+    coding: Coding
+    lattice: Lattice
+
+    @property
+    def counts(self) -> WordCounts:
+        """What frames the word."""
+        sizes = self.n_symbols, self.n_closed, self.n_single, self.n_specials, self.n_copies
+        return WordCounts(*sizes, self.polygons)
+
+
+def write(encoded: EncodedMesh, model: int) -> bytes:
+    """The payload; model: the number of the model."""
+    counts, lattice, itemsize = encoded.counts, encoded.lattice, encoded.dtype.itemsize
+    integers = (
+        encoded.n_vertices,
+        counts.n_symbols,
+        counts.n_closed,
+        counts.n_single,
+        counts.n_specials,
+        counts.n_copies,
+        encoded.n_exceptions,
+    )
+    size = _face_size(counts)
+    polygons = astuple(counts.polygons) if counts.polygons and size == MIXED else ()
+    kind = LATTICES.index(type(lattice))
+    numbers = bytes([model, encoded.coding.method + encoded.coding.cut * N_METHODS, kind])
+    parameters = _parameters(kind, itemsize).pack(*_flat(astuple(lattice)))
+    sizes = [*map(layout.varint, integers), bytes([size]), *map(layout.varint, polygons)]
+    return bytes([itemsize]) + b"".join(sizes) + numbers + parameters
+
+
+def read(payload: bytes) -> Header:
+    """The fields, checked; raises CorruptError and VersionError."""
+    try:
+        return _Reader(payload).header()
+    except (IndexError, struct.error):
+        raise CorruptError("the header ends too early") from None
+
+
+class _Reader:
+    """Reads one field after another; raises IndexError or struct.error where the data ends."""
+
+    def __init__(self, payload: bytes) -> None:
+        self._data = payload
+        self._at = 0
+
+    def header(self) -> Header:
+        itemsize = self._byte()
+        if itemsize not in DTYPE_SIZES:
+            raise CorruptError(f"coordinates of {itemsize} bytes")
+        n_vertices, n_symbols = self._count("vertices"), self._count("symbols")
+        n_closed, n_single = self._count("closed components"), self._count("single triangles")
+        n_specials, n_copies = self._count("special S"), self._count("copies")
+        n_exceptions = self._count("exceptions")
+        _check_counts(n_vertices, n_symbols, n_closed, n_single)
+        polygons = self._polygons(n_symbols + n_closed)
+        model, number = self._byte(), self._byte()
+        if model not in tables.NUMBERS:
+            raise VersionError(f"header: unknown model {model}")
+        if polygons and layout.ADAPTIVE_MODELS.get(model, Effort.DIRECT) == Effort.DIRECT:
+            raise CorruptError(f"polygons under model {model}")
+        lattice = self._lattice(itemsize)
+        coding = _coding(number, itemsize, lattice)
+        if coding.cut and not (polygons and can_cut(n_symbols + n_closed, coding.cut)):
+            raise CorruptError("faces that cannot be cut otherwise")
+        return Header(
+            itemsize,
+            n_vertices,
+            n_symbols,
+            n_closed,
+            n_single,
+            n_specials,
+            n_copies,
+            n_exceptions,
+            polygons,
+            model,
+            coding,
+            lattice,
+        )
+
+    def _byte(self) -> int:
+        self._at += 1
+        return self._data[self._at - 1]
+
+    def _count(self, what: str) -> int:
+        try:
+            value, size = layout.read_varint(self._data, self._at)
+        except ValueError as error:
+            raise CorruptError(str(error)) from None
+        if value >= MAX_COUNT:
+            raise CorruptError(f"{value} {what}, past the limit of 2^63")
+        self._at += size
+        return value
+
+    def _polygons(self, n_triangles: int) -> PolygonCounts | None:
+        face_size = self._byte()
+        if face_size in NO_SIZES:
+            raise VersionError(f"header: faces of unknown kind {face_size}")
+        if face_size == TRIANGLES:
+            return None
+        if face_size != MIXED:
+            return _polygons_of(face_size, n_triangles)
+        n_faces, n_empty = self._count("polygons"), self._count("empty polygons")
+        n_corners = self._count("corners of polygons")
+        n_runs = n_faces - n_empty
+        if n_faces > MAX_FACES or not 0 <= n_runs <= n_triangles:
+            raise CorruptError(f"{n_faces} polygons, {n_empty} of them empty")
+        if n_corners > n_triangles + 2 * n_runs:
+            raise CorruptError(f"{n_corners} corners of {n_runs} polygons")
+        return PolygonCounts(n_faces, n_empty, n_corners)
+
+    def _lattice(self, itemsize: int) -> Lattice:
+        """The last of the fields: nothing may follow."""
+        number = self._byte()
+        if number >= len(LATTICES):
+            raise VersionError(f"header: unknown lattice {number}")
+        parameters = _parameters(number, itemsize)
+        if self._at + parameters.size < len(self._data):
+            raise CorruptError("the header goes on after its last field")
+        return _checked(LATTICES[number], parameters.unpack_from(self._data, self._at), itemsize)
+
+
+def _check_counts(n_vertices: int, n_symbols: int, n_closed: int, n_single: int) -> None:
+    if n_vertices > MAX_VERTICES:
+        raise CorruptError(f"{n_vertices} vertices, past the limit of 2^31 - 1")
+    if n_symbols + n_closed > MAX_FACES:
+        raise CorruptError(f"more faces than the limit of {MAX_FACES}")
+    if n_closed + n_single > n_symbols:
+        raise CorruptError("more components than symbols")
+
+
+def _face_size(counts: WordCounts) -> int:
+    """Where it tells the counts of polygons."""
+    if counts.polygons is None:
+        return TRIANGLES
+    size = counts.polygons.n_corners // max(counts.polygons.n_faces, 1)
+    is_told = 3 < size < 256 and counts.polygons == _polygons_of(size, counts.n_triangles)
+    return size if is_told else MIXED
+
+
+def _polygons_of(size: int, n_triangles: int) -> PolygonCounts:
+    n_faces = n_triangles // (size - 2)
+    return PolygonCounts(n_faces, 0, size * n_faces)
+
+
+def _coding(byte: int, itemsize: int, lattice: Lattice) -> Coding:
+    way, number = divmod(byte, N_METHODS)
+    in_floats = FLOAT_METHODS[4 if isinstance(lattice, SingleLattice) else itemsize]
+    if number in FLOAT_METHODS.values() and number != in_floats:
+        raise CorruptError(f"positions of {itemsize} bytes by method {number}")
+    try:
+        return Coding(Method(number), Cut(way))
+    except ValueError:
+        raise VersionError(f"header: unknown method {byte} of positions") from None
+
+
+@cache
+def _parameters(number: int, itemsize: int) -> struct.Struct:
+    parameters = PARAMETERS[LATTICES[number]]
+    return struct.Struct("<" + parameters.format(corner="f" if itemsize == 4 else "d"))
+
+
+def _flat(values: tuple[Any, ...]) -> list[Any]:
+    return [x for value in values for x in (value if isinstance(value, tuple) else (value,))]
+
+
+def _checked(kind: type[Lattice], values: tuple[Any, ...], itemsize: int) -> Lattice:
+    """The lattice of these parameters; raises CorruptError where they make no sense."""
+    if not all(map(math.isfinite, values)):
+        raise CorruptError(f"a lattice of {values}, not all finite")
+    first, last = (values[0], values[-1]) if values else (0, 0)
+    if kind is BoxLattice:
+        if not 1 <= first <= MAX_BITS:
+            raise CorruptError(f"a lattice of {first} bits")
+        return BoxLattice(first, values[1:4], last)
+    if kind is DecimalLattice:
+        if first > MAX_DIGITS[itemsize]:
+            raise CorruptError(f"a lattice of {first} decimals")
+        return DecimalLattice(first)
+    if kind is SingleLattice:
+        if itemsize != 8 or first > MAX_SINGLE_DIGITS:
+            raise CorruptError(f"float32 of {first} digits in {itemsize} bytes")
+        return SingleLattice(first)
+    if kind is StepLattice:
+        if first <= 0:
+            raise CorruptError(f"a maximal error of {first}")
+        return StepLattice(first)
+    if kind is GridLattice:
+        if last <= 0:
+            raise CorruptError(f"a grid of step {last}")
+        return GridLattice(values[:3], last)
+    return FloatLattice()
