@@ -18,7 +18,9 @@ struct PredictedVertex {
     int32_t vertex;
     int32_t a, b, o;  // across the edge from a to b from o
     int32_t c, d, p;  // the same of a second one, of the first again if there is none
-    int32_t two;      // 1 if there is, else 0
+    int32_t gate, second;  // the half-edges from a to b and from c to d; the same if there is no second one
+
+    bool two() const { return gate != second; }
 };
 
 // A half-edge of a face that is not visited is a gate once the face across is; its tip is the face's third corner.
@@ -45,7 +47,7 @@ public:
         size_t n = 0;
         for (int32_t h; n < found.size() && (h = next_gate()) >= 0; ++n) {
             const int32_t v = vertex_[previous(h)], g = gate_[static_cast<size_t>(v)];
-            found[n] = {v, vertex_[g], vertex_[next(g)], apex(g), vertex_[h], vertex_[next(h)], apex(h), g == h ? 0 : 1};
+            found[n] = {v, vertex_[g], vertex_[next(g)], apex(g), vertex_[h], vertex_[next(h)], apex(h), g, h};
             learn(v);
             visit_from(h);
             visit_from(g);

@@ -13,12 +13,15 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gate_order.hpp"
-#include "least_squares.hpp"
 #include "light.hpp"
+#include "light_variant.hpp"
 #include "recall.hpp"
+#include "site.hpp"
 #include "surface.hpp"
 #include "wrapping.hpp"
 

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "light_predictor.hpp"
 #include "light_values.hpp"
 #include "recall.hpp"
 #include "wrapping.hpp"
@@ -20,16 +19,12 @@ public:
     explicit LightPlaces(size_t n_vertices)
         : along_(log2_entries(n_vertices)), around_(log2_entries(n_vertices)) {}
 
-    // Adds what is recalled for the axis under way.
-    void add_to(LightValues& values, size_t turn, const LightSurroundings& s, const LightPredictor& predictor) {
-        const size_t d = predictor.axis(turn);
-        const double origin = s.neighbours[0][d], second = s.n_neighbours > 1 ? s.neighbours[1][d] : 0;
-        const double one = turn > 0 ? predictor.value(predictor.axis(0)) : origin;
-        const double two = turn > 1 ? predictor.value(predictor.axis(1)) : 0;
-        along_key_ = key(static_cast<uint32_t>(4 * d + turn), one, two);
-        around_key_ = key(static_cast<uint32_t>(d + around_keys), origin, second);
+    // Adds what is recalled for axis d, in this turn.  known: the coordinates before, from a neighbour in the first turn.
+    void add_to(LightValues& values, size_t d, size_t turn, std::array<int64_t, 2> known, std::array<int64_t, 2> neighbours, int64_t base) {
+        along_key_ = key(d, known);
+        around_key_ = key(d + 4, neighbours);
         const auto add = [&](LightValues::Kind kind, uint32_t hits, int64_t value) {
-            values.add(kind, turn, std::min<size_t>(hits - 1, 3), 0, wrapping_difference(value, predictor.base()));
+            values.add(kind, turn, std::min<size_t>(hits - 1, 3), 0, wrapping_difference(value, base));
         };
         found_ = along_.find(along_key_);
         if (found_ != nullptr) {
@@ -59,16 +54,15 @@ private:
         }
     };
 
-    static constexpr size_t around_keys = 16;  // beyond those of `along`
+    static int log2_entries(size_t n_vertices) { return std::clamp(static_cast<int>(std::bit_width(n_vertices)) + 1, 8, 16); }
 
-    static int log2_entries(size_t n_vertices) { return std::clamp(static_cast<int>(std::bit_width(n_vertices)) + 1, 8, 14); }
-
-    static uint32_t key(uint32_t kind, double x, double y) {
-        const auto mixed = [](uint32_t h, double z) {
-            h = (h ^ static_cast<uint32_t>(static_cast<int64_t>(z))) * 0x85EBCA6Bu;
-            return h ^ h >> 15;
-        };
-        return mixed(mixed(kind * 0x9E3779B1u, x), y) * 0xC2B2AE35u;
+    static uint32_t key(size_t kind, std::array<int64_t, 2> coordinates) {
+        uint32_t h = static_cast<uint32_t>(kind) * 0x9E3779B1u;
+        for (const int64_t x : coordinates) {
+            h = (h ^ static_cast<uint32_t>(x)) * 0x85EBCA6Bu;
+            h ^= h >> 15;
+        }
+        return h * 0xC2B2AE35u;
     }
 
     Recall along_, around_;  // the axes before, the neighbours

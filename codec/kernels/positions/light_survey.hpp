@@ -3,151 +3,128 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "gate_order.hpp"
-#include "lanes.hpp"
+#include "int_lanes.hpp"
+#include "site.hpp"
 #include "surface.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-// x, y, z and a lane that does not matter.  Sums of coordinates are exact in doubles.
-using Axes4 = double __attribute__((vector_size(32)));
-using AxisInts = int64_t __attribute__((vector_size(32)));
-
-inline Axes4 magnitudes(Axes4 x) {
-    constexpr int64_t all = INT64_MAX;
-    return reinterpret_cast<Axes4>(reinterpret_cast<AxisInts>(x) & AxisInts{all, all, all, all});
-}
-inline Axes4 rotated(Axes4 x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
-inline Axes4 cross(Axes4 u, Axes4 w) { return rotated(u * rotated(w) - rotated(u) * w); }
-inline double dot(Axes4 u, Axes4 w) {
-    const Axes4 x = u * w;
-    return x[0] + x[1] + x[2];
-}
-
-// What coding a vertex left behind for its neighbours; all 0 for a seed.
-struct LightTrace {
-    Lanes size{};           // magnitudes of the residuals, and 1
-    Lanes residual{};       // from the plain prediction
-    uint32_t exact = 0;     // a byte per axis: 1 if the value was expected exactly
-    uint32_t residuals = 0; // a byte per axis, clamped
-};
-
-// In arrays, so that they are aligned whatever the instruction set.
-struct alignas(32) LightPoint {
-    LightPoint() : at{} {}  // GCC fails on an implicit one without optimisation
-    Axes4 at;
-};
-
+// Sums over the neighbours and the tips, which are the fourth corners of parallelograms.
+template <class Unsigned>
 struct LightSurroundings {
-    static constexpr size_t max_neighbours = 8, max_tips = 4, max_codes = 2;
+    using Position = typename Integers<Unsigned>::Lanes;
+    static constexpr size_t max_neighbours = 8, max_tips = 8;
 
-    Axes4 tips_sum, spread, normal, ahead, behind, beside, neighbours_sum;
-    Lanes size, drift;
-    std::array<Axes4, max_neighbours> neighbours;
-    std::array<Axes4, max_tips> tips;
-    std::array<uint32_t, max_codes> codes;
-    uint32_t exact;  // neighbours whose value was expected exactly, a byte per axis
-    int n_neighbours, n_parallelograms, n_behind, n_beside;
+    Position first;           // the first tip, which the sums of positions are relative to
+    Lanes tips, neighbours;
+    Lanes spread;             // from tip to tip
+    Lanes ahead, normal;      // of the faces that predict
+    Lanes drift, size;        // of the residuals, and of their magnitudes
+    IntLanes exact;           // less one for each residual of 0
+    std::array<Position, max_neighbours> neighbour_at;
+    std::array<Position, max_tips> tip_at;
+    size_t n_neighbours, n_tips;
 
-    size_t n_kept() const { return std::min<size_t>(static_cast<size_t>(n_neighbours), max_neighbours); }
-    size_t n_tips() const { return std::min<size_t>(static_cast<size_t>(n_parallelograms), max_tips); }
+    LightSurroundings() : neighbour_at{}, tip_at{} {}  // GCC fails on an implicit one without optimisation
+
+    size_t n_kept_neighbours() const { return std::min(n_neighbours, max_neighbours); }
+    size_t n_kept_tips() const { return std::min(n_tips, max_tips); }
 };
 
+template <class Unsigned>
 class LightSurveyor {
 public:
-    explicit LightSurveyor(const Surface& mesh)
-        : mesh_(mesh), corners_(mesh), known_(static_cast<size_t>(mesh.n_vertices)), points_(known_.size()), traces_(known_.size()) {}
+    using Surroundings = LightSurroundings<Unsigned>;
+    using Position = typename Surroundings::Position;
 
-    // Whether it has been settled.
-    bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
+    // sites: as many as the surface has vertices.
+    LightSurveyor(const Surface& mesh, Site<Unsigned>* sites)
+        : opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), known_(static_cast<size_t>(mesh.n_vertices)), sites_(sites) {}
 
-    void survey(int32_t v, LightSurroundings& s) const {
-        s.tips_sum = s.spread = s.normal = s.ahead = s.behind = s.beside = s.neighbours_sum = Axes4{};
-        s.size = s.drift = Lanes{};
-        s.codes.fill(0xffffffff);
-        s.exact = 0;
-        s.n_neighbours = s.n_parallelograms = s.n_behind = s.n_beside = 0;
-        for (int32_t c : corners_[v]) {
-            const int32_t a = vertex(next(c)), b = vertex(previous(c));
-            const bool knows_a = known(a), knows_b = known(b);
-            if (knows_a) add_neighbour(s, a);
-            if (knows_b && opposite(previous(c)) < 0) add_neighbour(s, b);
-            if (knows_a && knows_b) add_parallelogram(s, c, a, b);
-        }
-    }
+    Position at(int32_t v) const { return std::bit_cast<Position>(sites_[v].position); }
 
     void prefetch(const PredictedVertex& v) const {
-        for (const int32_t u : {v.vertex, v.a, v.b, v.o, v.c, v.d, v.p}) {
-            __builtin_prefetch(&points_[static_cast<size_t>(u)]);
-            __builtin_prefetch(&traces_[static_cast<size_t>(u)]);
-        }
+        for (const int32_t u : {v.vertex, v.a, v.b, v.o, v.c, v.d, v.p}) __builtin_prefetch(&sites_[u]);
     }
 
-    void settle(int32_t v, const int64_t* position, const LightTrace& trace) {
-        Axes4& point = points_[static_cast<size_t>(v)].at;
-        for (size_t d = 0; d < 3; ++d) point[d] = static_cast<double>(std::clamp(position[d], -farthest, farthest));
-        traces_[static_cast<size_t>(v)] = trace;
+    void settle(int32_t v, Position position, Lanes residual) {
+        sites_[v] = {std::bit_cast<std::array<Unsigned, 4>>(position), std::bit_cast<std::array<float, 4>>(residual)};
         known_[static_cast<size_t>(v)] = 1;
     }
 
+    // Both gates, and from the first one around the vertex as far as vertices are known.
+    void survey(const PredictedVertex& from, Surroundings& s) const {
+        s.first = at(from.a) + at(from.b) - at(from.o);
+        s.tips = s.neighbours = s.spread = s.ahead = s.normal = s.drift = s.size = Lanes{};
+        s.exact = IntLanes{};
+        s.n_neighbours = s.n_tips = 0;
+        add_neighbour(s, from.a);
+        add_neighbour(s, from.b);
+        add_tip(s, from.a, from.b, from.o);
+        bool met_second = from.gate == from.second;
+        if (!turn<true>(s, from, met_second)) return;
+        turn<false>(s, from, met_second);
+        if (met_second) return;
+        add_neighbour(s, from.c);
+        add_neighbour(s, from.d);
+        add_tip(s, from.c, from.d, from.p);
+    }
+
 private:
-    // Valid coordinates are far less; so sums of a few fit 64 bits.
-    static constexpr int64_t farthest = int64_t{1} << 58;
+    static constexpr size_t max_turns = 6;  // to either side
 
-    int32_t vertex(int32_t c) const { return mesh_.vertex[static_cast<size_t>(c)]; }
-    int32_t opposite(int32_t c) const { return mesh_.opposite[static_cast<size_t>(c)]; }
-    const Axes4& point(int32_t v) const { return points_[static_cast<size_t>(v)].at; }
-
-    void add_neighbour(LightSurroundings& s, int32_t u) const {
-        const auto i = static_cast<size_t>(s.n_neighbours++);
-        const LightTrace& trace = traces_[static_cast<size_t>(u)];
-        s.size += trace.size;
-        s.neighbours_sum += point(u);
-        s.drift += trace.residual;
-        if (i >= s.max_neighbours) return;
-        s.neighbours[i] = point(u);
-        s.exact += trace.exact;
-        if (i < s.max_codes) s.codes[i] = trace.residuals;
+    // From gate to gate of the vertex, to one side.  False if that went all around.
+    template <bool left>
+    bool turn(Surroundings& s, const PredictedVertex& from, bool& met_second) const {
+        int32_t gate = from.gate;
+        for (size_t n = 0; n < max_turns; ++n) {
+            const int32_t across = opposite_[left ? next(gate) : previous(gate)];
+            if (across < 0) break;
+            gate = left ? next(across) : previous(across);
+            if (gate == from.gate) return false;
+            const int32_t a = vertex_[gate], b = vertex_[next(gate)], u = left ? b : a;
+            if (!known(u)) break;
+            met_second |= gate == from.second;
+            add_neighbour(s, u);
+            if (opposite_[gate] < 0) continue;
+            const int32_t o = vertex_[previous(opposite_[gate])];
+            if (known(o)) add_tip(s, a, b, o);
+        }
+        return true;
     }
 
-    void add_parallelogram(LightSurroundings& s, int32_t c, int32_t a, int32_t b) const {
-        const int32_t across = opposite(next(c));
-        if (across < 0) return;
-        const int32_t apex = vertex(previous(across));
-        if (!known(apex)) return;
-        const Axes4 pa = point(a), pb = point(b), o = point(apex), tip = pa + pb - o;
-        const auto i = static_cast<size_t>(s.n_parallelograms++);
-        if (i > 0) s.spread += magnitudes(tip - s.tips[(i - 1) % s.max_tips]);
-        s.tips[i % s.max_tips] = tip;
-        s.tips_sum += tip;
-        s.normal += cross(pa - o, pb - o);
-        const Axes4 middle = (pa + pb) * 0.5;
-        s.ahead += middle - o;
-        add_wing(next(across), middle, s.behind, s.n_behind);
-        add_wing(previous(across), middle, s.behind, s.n_behind);
-        add_wing(c, middle, s.beside, s.n_beside);
-        add_wing(previous(c), middle, s.beside, s.n_beside);
+    bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
+
+    void add_neighbour(Surroundings& s, int32_t u) const {
+        const Position position = at(u);
+        const Lanes residual = std::bit_cast<Lanes>(sites_[u].residual);
+        s.neighbours += as_floats(position - s.first);
+        s.drift += residual;
+        s.size += magnitudes(residual);
+        s.exact += residual == 0.0f;
+        s.neighbour_at[s.n_neighbours++ % s.max_neighbours] = position;
     }
 
-    void add_wing(int32_t edge, Axes4 middle, Axes4& sum, int& n) const {
-        const int32_t across = opposite(edge);
-        if (across < 0) return;
-        const int32_t u = vertex(previous(across));
-        if (!known(u)) return;
-        sum += point(u) - middle;
-        ++n;
+    void add_tip(Surroundings& s, int32_t a, int32_t b, int32_t o) const {
+        constexpr float scale = 0x1p-20f;  // so that fourth powers are within floats
+        const Position origin = at(o), u = at(a) - origin, w = at(b) - origin, tip = origin + u + w;
+        if (s.n_tips > 0) s.spread += magnitudes(as_floats(tip - s.tip_at[(s.n_tips - 1) % s.max_tips]));
+        s.tips += as_floats(tip - s.first);
+        s.ahead += as_floats(u + w);
+        s.normal += cross(as_floats(u) * scale, as_floats(w) * scale);
+        s.tip_at[s.n_tips++ % s.max_tips] = tip;
     }
 
-    const Surface& mesh_;
-    const CornersOfVertices corners_;
+    const int32_t *opposite_, *vertex_;
     std::vector<uint8_t> known_;
-    std::vector<LightPoint> points_;
-    std::vector<LightTrace> traces_;
+    Site<Unsigned>* sites_;
 };
 
 }  // namespace EBZ_INSTRUCTIONS

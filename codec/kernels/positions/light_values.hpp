@@ -13,7 +13,7 @@ inline namespace EBZ_INSTRUCTIONS {
 
 class LightValues {
 public:
-    enum Kind : size_t { plain_base, expected_base, neighbour, tip, recalled, along, around, mirrored };
+    enum Kind : size_t { plain_base, expected_base, neighbour, tip, along, around, mirrored };
 
     LightValues() { hits_.fill(first_hits); }
 
@@ -27,37 +27,31 @@ public:
         contexts_[n_++] = &hits_[((kind * 3 + turn) * 4 + agreement) * 4 + exact];
     }
 
-    // True if e, then one of the values, has been coded.  level: half-octaves of the magnitude expected, 6 for 1;
+    // True if e, then one of the values, has been coded.  octaves: half-octaves of the magnitude expected, 6 for 1;
     // a value that hits hardly more often than any other of that magnitude is left to others.
     template <class Coder>
-    bool code(Coder& coder, size_t lane, int level, int64_t& e) {
-        const int least = std::max(least_hits, 32768 >> std::clamp((level - 6) / 2, 0, 15));
+    bool code(Coder& coder, size_t lane, int octaves, int64_t& e) {
+        const int least = std::max(least_hits, 32768 >> std::clamp((octaves - 6) / 2, 0, 15));
         for (size_t i = 0; i < n_; ++i) {
             const uint16_t p = *contexts_[i];
-            if (p < least) continue;
-            if (!coder.bit(lane, e == residuals_[i], p)) continue;
+            if (p < least || !coder.bit(lane, e == residuals_[i], p)) continue;
             e = residuals_[i];
             return true;
         }
         return false;
     }
 
-    // Whether any of the values was right.
-    bool learn(int64_t e) {
-        bool any = false;
+    void learn(int64_t e) {
         for (size_t i = 0; i < n_; ++i) {
-            const bool hit = e == residuals_[i];
-            any |= hit;
             uint16_t& p = *contexts_[i];
-            p = static_cast<uint16_t>(p + (((hit ? 32768 - 31 : 31) - p) >> 5));
+            p = static_cast<uint16_t>(p + (((e == residuals_[i] ? 32768 - 15 : 15) - p) >> 4));
         }
-        return any;
     }
 
 private:
-    static constexpr size_t n_kinds = 8, n_contexts = n_kinds * 3 * 4 * 4, max_values = 7;
+    static constexpr size_t n_kinds = 7, n_contexts = n_kinds * 3 * 4 * 4, max_values = 6;
     static constexpr uint16_t first_hits = 8192;  // of 2^15
-    static constexpr int least_hits = 1300;
+    static constexpr int least_hits = 600;
 
     std::array<uint16_t, n_contexts> hits_;
     std::array<int64_t, max_values> residuals_{};

@@ -1,21 +1,17 @@
 // The medium method, in the versions for several instruction sets that medium_coder.hpp is compiled to.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "../instructions.hpp"
+#include "site.hpp"
 #include "surface.hpp"
 
 namespace ebz::positions {
 
-// Positions are signed integers modulo 2^32; the fourth of each does not matter.
-struct alignas(32) MediumSite {
-    std::array<uint32_t, 4> position;
-    std::array<float, 4> residual;
-};
+using MediumSite = Site<uint32_t>;
 
 inline namespace baseline {
 std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t> values);

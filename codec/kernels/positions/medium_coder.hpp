@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "lanes.hpp"
+#include "int_lanes.hpp"
 #include "medium.hpp"
 #include "medium_model.hpp"
 #include "gate_order.hpp"
@@ -73,12 +73,12 @@ private:
         const UintLanes base = choose(is_plain, plain, first + as_uints(rounded(smooth)));
         const Lanes ra = residual(from.a), rb = residual(from.b), rc = residual(from.c), rd = residual(from.d);
         const Lanes size = ((magnitudes(ra) + magnitudes(rb)) + (magnitudes(rc) + magnitudes(rd))) * 0.25f;
-        const Lanes spread = from.two ? magnitudes(off) : size;
+        const Lanes spread = from.two() ? magnitudes(off) : size;
         const Lanes fraction = (smooth - as_floats(base - first)) * (is_plain ? splat<Lanes>(2.0f) : splat<Lanes>(4.0f));
         const UintLanes near = nearer(nearer(a - base, b - base), nearer(c - base, d - base));
         const Lanes drift = ((ra + rb) + (rc + rd)) * 0.25f;
         const Lanes scale = size * 0.6f + spread * 0.25f;
-        const MediumModel::Circumstances known = {scale, spread, drift, fraction, near, from.two};
+        const MediumModel::Circumstances known = {scale, spread, drift, fraction, near, from.two() ? 1 : 0};
         const UintLanes e = model_.code(coder_, known, to_be_coded(from.vertex, base));
         const UintLanes x = base + e;
         settle(from.vertex, x, as_floats(e));
@@ -99,15 +99,7 @@ private:
         sites_[v] = {std::bit_cast<std::array<uint32_t, 4>>(position), std::bit_cast<std::array<float, 4>>(residual)};
     }
 
-    static UintLanes choose(IntLanes mask, UintLanes x, UintLanes y) { return (x & as_uints(mask)) | (y & ~as_uints(mask)); }
-
     static UintLanes nearer(UintLanes x, UintLanes y) { return choose(magnitudes(as_floats(y)) < magnitudes(as_floats(x)), y, x); }
-
-    // The nearest integers.
-    static IntLanes rounded(Lanes x) {
-        const IntLanes half = reinterpret_cast<IntLanes>(splat<Lanes>(0.5f)) | (reinterpret_cast<IntLanes>(x) & INT32_MIN);
-        return truncated(x + reinterpret_cast<Lanes>(half));
-    }
 
     Coder& coder_;
     const Surface& mesh_;

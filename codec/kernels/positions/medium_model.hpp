@@ -11,27 +11,12 @@
 #include <cstdint>
 
 #include "../adaptive_symbol.hpp"
-#include "lanes.hpp"
+#include "int_lanes.hpp"
 #include "residual_digits.hpp"
 #include "symbol_row.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
-
-using UintLanes = uint32_t __attribute__((vector_size(16)));
-
-inline IntLanes as_ints(UintLanes x) { return reinterpret_cast<IntLanes>(x); }
-inline UintLanes as_uints(IntLanes x) { return reinterpret_cast<UintLanes>(x); }
-inline Lanes as_floats(UintLanes x) { return __builtin_convertvector(as_ints(x), Lanes); }
-inline Lanes magnitudes(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_cast<IntLanes>(x) & INT32_MAX); }
-inline Lanes clamp(Lanes x, float low, float high) { return min(max(x, splat<Lanes>(low)), splat<Lanes>(high)); }
-inline IntLanes truncated(Lanes x) { return __builtin_convertvector(x, IntLanes); }
-
-// Which are nearly logarithms.
-inline Lanes bit_patterns(Lanes x) { return __builtin_convertvector(reinterpret_cast<IntLanes>(x), Lanes); }
-
-// Half-octaves of x + 1/8, x >= 0: 1 gives 6.
-inline IntLanes half_octaves(Lanes x) { return (reinterpret_cast<IntLanes>(x + 0.125f) >> 22) - 248; }
 
 class MediumModel {
 public:

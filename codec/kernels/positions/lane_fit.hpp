@@ -1,0 +1,81 @@
+// Online least squares of several axes together, with forgetting, a prior, and solutions at growing intervals.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "lanes.hpp"
+
+namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
+
+// Each lane but the last is an observation, with the same weights w for all; 0 counts for nothing.
+template <size_t D>
+class LaneFit {
+public:
+    using Inputs = std::array<Lanes, D>;
+
+    explicit LaneFit(const std::array<float, D>& prior) : a_{}, b_{}, w_(prior), prior_(prior) {}
+
+    Lanes predict(const Inputs& x) const {
+        Lanes sum = x[0] * w_[0];
+        for (size_t i = 1; i < D; ++i) sum += x[i] * w_[i];
+        return sum;
+    }
+
+    // Solves after 1, 2, 3, 4, 5, ... of them.
+    void add(const Inputs& x, Lanes y, float weight) {
+        for (size_t i = 0; i < D; ++i) {
+            const Lanes wx = x[i] * weight;
+            for (size_t j = 0; j <= i; ++j) a_[i][j] += wx * x[j];
+            b_[i] += wx * y;
+        }
+        if (++n_ < due_) return;
+        solve();
+        due_ = n_ + (n_ < 4 ? 1 : n_ < 4 * interval ? n_ / 4 : interval);
+        if (n_ >= 4 * interval) forget();
+    }
+
+private:
+    static constexpr int interval = 32, window = 2000;
+    static constexpr double ridge = 50, largest = 1e4;
+
+    void forget() {
+        constexpr float keep = 1 - float{interval} / window;
+        for (Inputs& row : a_)
+            for (Lanes& x : row) x *= keep;
+        for (Lanes& x : b_) x *= keep;
+    }
+
+    static double over_axes(Lanes x) { return (double{x[0]} + double{x[1]}) + double{x[2]}; }
+
+    // Minimises sum weight (y - w x)^2 + ridge |w - prior|^2 by Cholesky's L D L' factorisation.
+    void solve() {
+        std::array<std::array<double, D>, D> l;
+        std::array<double, D> d, w;
+        for (size_t i = 0; i < D; ++i) {
+            w[i] = over_axes(b_[i]) + ridge * double{prior_[i]};
+            for (size_t j = 0; j <= i; ++j) {
+                double sum = over_axes(a_[i][j]) + (i == j ? ridge : 0.0);
+                for (size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
+                if (i == j) d[i] = sum > 0.5 * ridge ? sum : 0.5 * ridge;  // positive up to rounding
+                else l[i][j] = sum / d[j];
+            }
+            for (size_t k = 0; k < i; ++k) w[i] -= l[i][k] * w[k];
+        }
+        for (size_t i = 0; i < D; ++i) w[i] /= d[i];
+        for (size_t i = D; i-- > 0;) {
+            for (size_t k = i + 1; k < D; ++k) w[i] -= l[k][i] * w[k];
+            w_[i] = static_cast<float>(std::clamp(w[i], -largest, largest));
+        }
+    }
+
+    std::array<Inputs, D> a_;
+    Inputs b_;
+    std::array<float, D> w_, prior_;
+    int n_ = 0, due_ = 1;
+};
+
+}  // namespace EBZ_INSTRUCTIONS
+}  // namespace ebz::positions

@@ -1,0 +1,97 @@
+// What coordinates may repeat: those of neighbours and tips, what was expected, those of other places.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "light_places.hpp"
+#include "light_predictor.hpp"
+#include "light_survey.hpp"
+#include "light_values.hpp"
+
+namespace ebz::positions {
+inline namespace EBZ_INSTRUCTIONS {
+
+template <class Unsigned>
+class LightRecalls {
+public:
+    using Surroundings = LightSurroundings<Unsigned>;
+    using Expectation = LightExpectation<Unsigned>;
+    using Signed = std::make_signed_t<Unsigned>;
+
+    explicit LightRecalls(size_t n_vertices) : places_(n_vertices) {}
+
+    // s stays as it is until the vertex has been learnt.
+    void start(const Surroundings& s) {
+        s_ = &s;
+        neighbour_agrees_ = {};
+        tip_agrees_ = {};
+        n_known_ = 0;
+    }
+
+    // True if the residual e of axis d has been coded as one of a value.
+    template <class Coder>
+    bool code(Coder& coder, size_t d, const Expectation& x, int64_t& e) {
+        find(d, x);
+        return values_.code(coder, d, x.level[d] + 2 * x.shift[d], e);
+    }
+
+    void learn(size_t d, int64_t e, Unsigned coordinate) {
+        const auto value = int64_t{static_cast<Signed>(coordinate)};
+        values_.learn(e);
+        places_.learn(d, value);
+        if (n_known_ == known_.size()) return;
+        known_[n_known_++] = value;
+        for (size_t i = 0; i < s_->n_kept_neighbours(); ++i) neighbour_agrees_[i] += s_->neighbour_at[i][d] == coordinate ? 1 : 0;
+        for (size_t i = 0; i < s_->n_kept_tips(); ++i) tip_agrees_[i] += s_->tip_at[i][d] == coordinate ? 1 : 0;
+    }
+
+private:
+    using Agreements = std::array<uint8_t, Surroundings::max_neighbours>;  // axes that agree with the position
+    static_assert(Surroundings::max_tips == Surroundings::max_neighbours);
+
+    void find(size_t d, const Expectation& x) {
+        const size_t turn = n_known_, exact = static_cast<size_t>(std::min(-s_->exact[d], 3));
+        const auto value = [d](const auto& position) { return int64_t{static_cast<Signed>(position[d])}; };
+        const auto residual = [&](const auto& position) { return int64_t{static_cast<Signed>(position[d] - x.base[d])}; };
+        values_.clear();
+        if (x.shift[d] > 0) values_.add(x.plain[d] ? LightValues::plain_base : LightValues::expected_base, turn, 0, exact, 0);
+        int64_t best = residual(s_->neighbour_at[0]);
+        size_t most = neighbour_agrees_[0];
+        for (size_t i = 1; i < s_->n_kept_neighbours(); ++i) {
+            const int64_t other = residual(s_->neighbour_at[i]);
+            const size_t agrees = neighbour_agrees_[i];
+            if (agrees < most || (agrees == most && magnitude(other) >= magnitude(best))) continue;
+            most = agrees;
+            best = other;
+        }
+        values_.add(LightValues::neighbour, turn, agreement(most), exact, best);
+        if (s_->n_tips > 1) {
+            const size_t tip = first_largest(s_->n_kept_tips());
+            values_.add(LightValues::tip, turn, agreement(tip_agrees_[tip]), exact, residual(s_->tip_at[tip]));
+        }
+        const std::array<int64_t, 2> origins = {value(s_->neighbour_at[0]), value(s_->neighbour_at[1])};
+        const std::array<int64_t, 2> known = {turn > 0 ? known_[0] : origins[0], turn > 1 ? known_[1] : 0};
+        places_.add_to(values_, d, turn, known, origins, value(x.base));
+    }
+
+    size_t first_largest(size_t n_tips) const {
+        return static_cast<size_t>(std::max_element(tip_agrees_.begin(), tip_agrees_.begin() + static_cast<std::ptrdiff_t>(n_tips)) - tip_agrees_.begin());
+    }
+
+    // 0 at first, then 1, 2, 3 for none, some and all of the axes before.
+    size_t agreement(size_t n_agree) const { return n_known_ == 0 ? 0 : n_agree == 0 ? 1 : n_agree < n_known_ ? 2 : 3; }
+
+    const Surroundings* s_ = nullptr;
+    LightValues values_;
+    LightPlaces places_;
+    Agreements neighbour_agrees_{}, tip_agrees_{};
+    std::array<int64_t, 2> known_{};  // coordinates of the vertex
+    size_t n_known_ = 0;
+};
+
+}  // namespace EBZ_INSTRUCTIONS
+}  // namespace ebz::positions
