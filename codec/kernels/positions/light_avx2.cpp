@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "axis_order.hpp"
 #include "gate_order.hpp"
 #include "light.hpp"
-#include "light_variant.hpp"
 #include "recall.hpp"
 #include "site.hpp"
 #include "surface.hpp"

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "axis_order.hpp"
 #include "gate_order.hpp"
 #include "int_lanes.hpp"
 #include "light.hpp"
@@ -19,20 +20,20 @@
 #include "light_recalls.hpp"
 #include "light_steps.hpp"
 #include "light_survey.hpp"
-#include "light_variant.hpp"
 #include "surface.hpp"
 #include "two_part_stream.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
+// Where axes are ordered by the normal, coordinates slide along tangent planes; else they are recalled.
 template <class Coder, class Unsigned>
 class LightCoder {
 public:
     // sites: as many as the surface has vertices.
-    LightCoder(Coder& coder, const Surface& mesh, LightVariant variant, Site<Unsigned>* sites)
-        : coder_(coder), mesh_(mesh), vertex_(mesh.vertex.data()), variant_(variant), order_(mesh), surveyor_(mesh, sites),
-          recalls_(variant.recalls ? static_cast<size_t>(mesh.n_vertices) : 0) {}
+    LightCoder(Coder& coder, const Surface& mesh, AxisOrder axes, Site<Unsigned>* sites)
+        : coder_(coder), mesh_(mesh), vertex_(mesh.vertex.data()), axes_(axes), order_(mesh), surveyor_(mesh, sites),
+          recalls_(axes.is_fixed() ? static_cast<size_t>(mesh.n_vertices) : 0) {}
 
     void run() {
         const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
@@ -75,12 +76,11 @@ private:
 
     void code(const PredictedVertex& from) {
         surveyor_.survey(from, s_);
-        predictor_.predict(s_, !variant_.recalls);
+        predictor_.predict(s_, !axes_.is_fixed());
         predictor_.expect(x_);
-        if (variant_.recalls) recalls_.start(s_);
+        if (axes_.is_fixed()) recalls_.start(s_);
         const Position wanted = to_be_coded(from.vertex);
-        const size_t last = predictor_.last(variant_.recalls ? variant_.last : 2);
-        const std::array<size_t, 3> axes = {last == 0 ? 1u : 0u, last == 2 ? 1u : 2u, last};
+        const std::array<size_t, 3> axes = AxisOrder::ending_with(predictor_.last(axes_.is_fixed() ? axes_.last : 2));
         Position position{}, residuals{};
         for (size_t turn = 0; turn < 3; ++turn) {
             if (turn == 2 && predictor_.slide(position)) predictor_.expect(x_);
@@ -94,9 +94,9 @@ private:
     }
 
     int64_t code_axis(size_t turn, size_t d, int64_t e) {
-        const bool told = variant_.recalls && recalls_.code(coder_.symbols, d, x_, e);
+        const bool told = axes_.is_fixed() && recalls_.code(coder_.symbols, d, x_, e);
         if (!told) e = model_.code(coder_, d, contexts(turn, d), 5 * turn + std::min<size_t>(s_.n_tips, 4), x_.shift[d], e);
-        if (variant_.recalls) recalls_.learn(d, e, x_.base[d] + static_cast<Unsigned>(e));
+        if (axes_.is_fixed()) recalls_.learn(d, e, x_.base[d] + static_cast<Unsigned>(e));
         return e;
     }
 
@@ -116,7 +116,7 @@ private:
     Coder& coder_;
     const Surface& mesh_;
     const int32_t* vertex_;
-    LightVariant variant_;
+    AxisOrder axes_;
     GateOrder order_;
     std::array<PredictedVertex, 256> batch_;  // found together, so that order and coding do not wait for each other
     LightSurveyor<Unsigned> surveyor_;
@@ -129,13 +129,16 @@ private:
     std::array<LightSteps, 2> steps_;  // to components, within their first faces
 };
 
+// In the first byte, beside the order of axes: coordinates have 64 bits.
+inline constexpr uint8_t is_wide = 4;
+
 template <class Unsigned, class Coder>
-void code_positions_light(Coder& coder, const Surface& mesh, LightVariant variant, Site<Unsigned>* sites) {
-    std::make_unique<LightCoder<Coder, Unsigned>>(coder, mesh, variant, sites)->run();
+void code_positions_light(Coder& coder, const Surface& mesh, AxisOrder axes, Site<Unsigned>* sites) {
+    std::make_unique<LightCoder<Coder, Unsigned>>(coder, mesh, axes, sites)->run();
 }
 
 template <class Unsigned>
-std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values, LightVariant variant) {
+std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> values, AxisOrder axes) {
     const size_t n = values.size() / 3;
     const auto sites = std::make_unique_for_overwrite<Site<Unsigned>[]>(n);
     for (size_t v = 0; v < n; ++v) {
@@ -143,19 +146,19 @@ std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> 
         sites[v].position[3] = 0;
     }
     TwoPartEncoder coder;
-    code_positions_light(coder, mesh, variant, sites.get());
+    code_positions_light(coder, mesh, axes, sites.get());
     const std::vector<uint8_t> coded = coder.finish();
-    std::vector<uint8_t> bytes = {variant.byte(sizeof(Unsigned) == sizeof(uint64_t))};
+    std::vector<uint8_t> bytes = {static_cast<uint8_t>(axes.last | (sizeof(Unsigned) == sizeof(uint64_t) ? is_wide : 0))};
     bytes.insert(bytes.end(), coded.begin(), coded.end());
     return bytes;
 }
 
 template <class Unsigned>
-void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, LightVariant variant, std::span<int64_t> values) {
+void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, AxisOrder axes, std::span<int64_t> values) {
     const size_t n = values.size() / 3;
     const auto sites = std::make_unique_for_overwrite<Site<Unsigned>[]>(n);
     TwoPartDecoder coder(bytes);
-    code_positions_light(coder, mesh, variant, sites.get());
+    code_positions_light(coder, mesh, axes, sites.get());
     for (size_t v = 0; v < n; ++v)
         for (size_t d = 0; d < 3; ++d) values[3 * v + d] = int64_t{static_cast<std::make_signed_t<Unsigned>>(sites[v].position[d])};
 }
@@ -164,8 +167,8 @@ std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> 
     const auto fits = [](int64_t x) { return x == static_cast<int32_t>(x); };
     const bool narrow = std::all_of(values.begin(), values.end(), fits);
     std::vector<uint8_t> shortest;
-    for (const LightVariant variant : light_variants(values)) {
-        std::vector<uint8_t> bytes = narrow ? encode_light<uint32_t>(mesh, values, variant) : encode_light<uint64_t>(mesh, values, variant);
+    for (const AxisOrder axes : axis_orders(values)) {
+        std::vector<uint8_t> bytes = narrow ? encode_light<uint32_t>(mesh, values, axes) : encode_light<uint64_t>(mesh, values, axes);
         if (shortest.empty() || bytes.size() < shortest.size()) shortest = std::move(bytes);
     }
     return shortest;
@@ -173,9 +176,9 @@ std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> 
 
 void decode_light(std::span<const uint8_t> bytes, const Surface& mesh, std::span<int64_t> values) {
     if (bytes.empty()) return;
-    const LightVariant variant = LightVariant::of(bytes[0]);
-    const bool wide = (bytes[0] & 4) != 0;
-    wide ? decode_light<uint64_t>(bytes.subspan(1), mesh, variant, values) : decode_light<uint32_t>(bytes.subspan(1), mesh, variant, values);
+    const AxisOrder axes = AxisOrder::of(bytes[0]);
+    const bool wide = (bytes[0] & is_wide) != 0;
+    wide ? decode_light<uint64_t>(bytes.subspan(1), mesh, axes, values) : decode_light<uint32_t>(bytes.subspan(1), mesh, axes, values);
 }
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -111,15 +111,19 @@ void Predictor::scales(const Surroundings& s, Prediction& p) const {
     }
 }
 
-void Predictor::tangent_plane(Prediction& p) {
+void Predictor::tangent_plane(Prediction& p) const {
     const bool known = dot(p.normal, p.normal) > 0;
     const double tangent = p.tangent_size * 1.25 + 0.3, across = p.normal_size * 1.25 + 0.3;
     const double vt = tangent * tangent / 1.6, vn = known ? across * across : vt;
     for (size_t i = 0; i < 3; ++i)
         for (size_t j = 0; j < 3; ++j)
             p.covariance[i][j] = (i == j ? vt + 0.08 : 0) + (vn - vt) * p.normal[i] * p.normal[j];
-    // The axis nearest to the normal last: by then the others tell most about it.
-    p.axes = {0, 1, 2};
+    order_axes(p);
+}
+
+void Predictor::order_axes(Prediction& p) const {
+    p.axes = AxisOrder::ending_with(order_.is_fixed() ? order_.last : 2);
+    if (order_.is_fixed()) return;
     const auto swap_if = [&](size_t i, size_t j) {
         if (std::fabs(p.normal[p.axes[i]]) > std::fabs(p.normal[p.axes[j]])) std::swap(p.axes[i], p.axes[j]);
     };

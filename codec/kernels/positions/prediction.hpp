@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "axis_order.hpp"
 #include "least_squares.hpp"
 #include "surroundings.hpp"
 
@@ -47,7 +48,7 @@ inline Point cross(const Point& a, const Point& b) {
 
 class Predictor {
 public:
-    explicit Predictor(size_t n_vertices) : traces_(n_vertices) {
+    Predictor(size_t n_vertices, AxisOrder order) : order_(order), traces_(n_vertices) {
         const Fit::Vector parallelogram{-1, 0, 0, 0, 0, 0};
         fits_.fill(Fit(parallelogram, 0.5, 6000));
         blends_.fill(Blend(Blend::Vector{0.7, 0, 0, 0}, 0.5, 6000));
@@ -67,9 +68,11 @@ private:
     void fit(const Surroundings& s, Prediction& p);
     void blend(const Surroundings& s, Prediction& p);
     void scales(const Surroundings& s, Prediction& p) const;
-    static void tangent_plane(Prediction& p);
+    void tangent_plane(Prediction& p) const;
+    void order_axes(Prediction& p) const;
     Blend::Vector blend_inputs(const Prediction& p, size_t d) const;
 
+    AxisOrder order_;
     std::vector<Trace> traces_;
     std::array<Fit, 16> fits_;  // by known wings
     std::array<Blend, 8> blends_;

@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "../range_coder.hpp"
 #include "axes.hpp"
+#include "axis_order.hpp"
 #include "expectation.hpp"
 #include "initial_weights.hpp"
 #include "prediction.hpp"

@@ -8,6 +8,7 @@
 
 #include "../range_coder.hpp"
 #include "axes.hpp"
+#include "axis_order.hpp"
 #include "prediction.hpp"
 #include "residual_model.hpp"
 #include "seed_model.hpp"
@@ -20,12 +21,12 @@ namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
 template <class Coder>
-void code_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
+void code_strong(Coder& coder, const Surface& mesh, AxisOrder order, std::span<int64_t> xyz) {
     const auto n = static_cast<size_t>(mesh.n_vertices);
     const CornersOfVertices corners(mesh);
     Traversal traversal(mesh, corners);
     const Surveyor surveyor(mesh, corners, traversal, xyz);
-    Predictor predictor(n);
+    Predictor predictor(n, order);
     Axes axes;
     const auto model = std::make_unique<ResidualModel<Coder>>(coder, n);
     SeedModel seeds;
@@ -55,8 +56,8 @@ void code_strong(Coder& coder, const Surface& mesh, std::span<int64_t> xyz) {
     }
 }
 
-template void code_strong(RangeEncoder&, const Surface&, std::span<int64_t>);
-template void code_strong(RangeDecoder&, const Surface&, std::span<int64_t>);
+template void code_strong(RangeEncoder&, const Surface&, AxisOrder, std::span<int64_t>);
+template void code_strong(RangeDecoder&, const Surface&, AxisOrder, std::span<int64_t>);
 
 }  // namespace EBZ_INSTRUCTIONS
 }  // namespace ebz::positions
