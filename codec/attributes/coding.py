@@ -170,6 +170,7 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
     return {
         "opposite": items.opposite,
         "item": items.item,
+        "offsets": items.offsets,
         "n": items.n,
         "n_components": width,
         "points": points,

@@ -51,9 +51,10 @@ class Sites:
     @cached_property
     def by_face(self) -> "Items":
         """A face each."""
-        if self.polygons is not None:
-            return Items(self.n_faces)
-        return Items(self.n_faces, self.opposite, sites=self)
+        if self.polygons is None:
+            return Items(self.n_faces, self.opposite, sites=self)
+        offsets = self.polygons.offsets.astype(np.int32)
+        return Items(self.n_faces, self.polygons.across(self.opposite), sites=self, offsets=offsets)
 
     def by_wedge(self, wedge: Int32s, n_wedges: int) -> "Items":
         """The corners of one wedge each: those at a vertex that have the same value."""
@@ -79,6 +80,17 @@ class Sites:
         with np.errstate(all="ignore"):
             return np.cross(b - a, c - a)
 
+    @cached_property
+    def polygon_products(self) -> Floats:
+        """(m, 3) of each face the sum over its triangles."""
+        if self.polygons is None:
+            return self.face_products
+        sizes = np.diff(self.polygons.offsets)
+        n_triangles = np.where(sizes > 0, np.maximum(sizes - 2, 1), 0)
+        face = np.repeat(np.arange(len(sizes)), n_triangles)
+        columns = (np.bincount(face, column, len(sizes)) for column in self.face_products.T)
+        return np.stack(list(columns), axis=1)
+
 
 @dataclass(frozen=True)
 class Items:
@@ -86,6 +98,7 @@ class Items:
 
     opposite, item: (3m,) the half-edge across and the entry of each corner; without item, entries
     are those of the faces; without both they are rows.  at: (n,) the vertex of each entry.
+    offsets: (n + 1,) where the half-edges of each face begin; nothing where faces are triangles.
     """
 
     n: int
@@ -93,6 +106,7 @@ class Items:
     item: Int32s = field(default_factory=lambda: NOTHING)
     sites: Sites | None = None
     at: npt.NDArray[Any] = field(default_factory=lambda: NOTHING)
+    offsets: Int32s = field(default_factory=lambda: NOTHING)
 
     @property
     def has_surface(self) -> bool:
@@ -115,8 +129,10 @@ class Items:
 
     @property
     def face_products(self) -> Floats:
-        """(m, 3) normals of the faces of the surface, as long as twice the area."""
-        return NOWHERE if self.sites is None else self.sites.face_products
+        """Normals as long as twice the area: of triangles, or of the faces that entries are of."""
+        if self.sites is None:
+            return NOWHERE
+        return self.sites.face_products if self.is_by_corner else self.sites.polygon_products
 
     @property
     def site(self) -> Int32s:

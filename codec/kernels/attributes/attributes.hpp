@@ -33,6 +33,7 @@ enum class Relation : uint8_t {
 // are its faces; else rows.
 struct Items {
     std::span<const int32_t> opposite, item;
+    std::span<const int32_t> offsets;  // n + 1, where the half-edges of each face begin; none of triangles
     int32_t n;
     size_t n_components;
     std::span<const double> points;   // 3 per item, or none: where it is

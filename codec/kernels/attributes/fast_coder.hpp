@@ -15,6 +15,7 @@
 #include "../positions/surface.hpp"
 #include "../positions/two_part_stream.hpp"
 #include "attributes.hpp"
+#include "face_edges.hpp"
 #include "fast.hpp"
 
 namespace ebz::attributes {
@@ -64,10 +65,11 @@ void along_surface(const Items& items, Code code) {
 // Of faces: those before across their edges, the latest first.
 template <class Code>
 void along_faces(const Items& items, Code code) {
+    const FaceEdges edges(items);
     for (int32_t f = 0; f < items.n; ++f) {
         int32_t a = -1, b = -1;
-        for (size_t h = 3 * static_cast<size_t>(f), end = h + 3; h < end; ++h) {
-            const int32_t o = items.opposite[h], g = o < 0 || o / 3 >= f ? -1 : o / 3;
+        for (int32_t h = edges.begin(f), end = edges.end(f); h < end; ++h) {
+            const int32_t across = edges.across(h), g = across < f ? across : -1;
             b = std::max(b, std::min(a, g));
             a = std::max(a, g);
         }

@@ -10,6 +10,7 @@
 #include "../positions/surface.hpp"
 #include "../positions/traversal.hpp"
 #include "attributes.hpp"
+#include "face_edges.hpp"
 
 namespace ebz::attributes {
 
@@ -79,28 +80,36 @@ private:
 // Faces in their order: those across edges, then those across theirs.
 class FaceWalk {
 public:
-    explicit FaceWalk(const Items& items) : items_(items) {}
+    explicit FaceWalk(const Items& items) : n_(items.n), edges_(items) {}
 
-    int32_t next() { return at_ + 1 < items_.n ? ++at_ : -1; }
+    int32_t next() { return at_ + 1 < n_ ? ++at_ : -1; }
 
     const positions::CornersOfVertices* corners() const { return nullptr; }
 
     void surround(int32_t f, Neighbourhood& out) {
         out.clear();
-        for (int32_t i = 0; i < 3; ++i) add_earlier(3 * f + i, f, out);
+        add_earlier(f, edges_.end(f), f, out);
         const auto begin = out.neighbours.begin();
         std::sort(begin, begin + static_cast<ptrdiff_t>(out.n_neighbours), std::greater<>());
-        for (size_t k = 0, n = out.n_neighbours; k < n; ++k)
-            for (int32_t i = 0; i < 3; ++i) add_earlier(3 * out.neighbours[k] + i, f, out);
+        for (size_t k = 0, n = out.n_neighbours; k < n; ++k) {
+            const int32_t g = out.neighbours[k];
+            add_earlier(g, std::min(edges_.end(g), edges_.begin(g) + max_sides), f, out);
+        }
     }
 
 private:
-    void add_earlier(int32_t h, int32_t f, Neighbourhood& out) const {
-        const int32_t o = items_.opposite[static_cast<size_t>(h)];
-        if (o >= 0 && o / 3 < f) out.add(o / 3);
+    static constexpr int32_t max_sides = 16;  // of a neighbour: large ones may have many neighbours
+
+    // What is across the half-edges of `face` below `end`, if before f.
+    void add_earlier(int32_t face, int32_t end, int32_t f, Neighbourhood& out) const {
+        for (int32_t h = edges_.begin(face); h < end; ++h) {
+            const int32_t g = edges_.across(h);
+            if (g >= 0 && g < f) out.add(g);
+        }
     }
 
-    const Items& items_;
+    int32_t n_;
+    FaceEdges edges_;
     int32_t at_ = -1;
 };
 

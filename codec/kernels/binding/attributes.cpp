@@ -8,10 +8,10 @@ namespace ebz::binding {
 namespace {
 
 // The arrays must stay.
-ebz::attributes::Items attribute_items(const Input<int32_t>& opposite, const Input<int32_t>& item, int32_t n,
+ebz::attributes::Items attribute_items(const Input<int32_t>& opposite, const Input<int32_t>& item, const Input<int32_t>& offsets, int32_t n,
                                        size_t n_components, const Input<double>& points,
                                        const Input<int32_t>& site, const Input<double>& guess) {
-    return {view(opposite), view(item), n, n_components, view(points), view(site), view(guess)};
+    return {view(opposite), view(item), view(offsets), n, n_components, view(points), view(site), view(guess)};
 }
 
 ebz::attributes::Coding attribute_coding(int method, int space, int relation, double total, bool heights, bool by_area) {
@@ -19,21 +19,21 @@ ebz::attributes::Coding attribute_coding(int method, int space, int relation, do
             static_cast<ebz::attributes::Relation>(relation), total, heights, by_area};
 }
 
-nb::bytes encode_attribute(const Input<int32_t>& opposite, const Input<int32_t>& item, int32_t n,
+nb::bytes encode_attribute(const Input<int32_t>& opposite, const Input<int32_t>& item, const Input<int32_t>& offsets, int32_t n,
                            size_t n_components, const Input<double>& points, const Input<int32_t>& site,
                            const Input<double>& guess, int method, int space, int relation, double total,
                            bool heights, bool by_area, const Input<int64_t>& values) {
-    const auto items = attribute_items(opposite, item, n, n_components, points, site, guess);
+    const auto items = attribute_items(opposite, item, offsets, n, n_components, points, site, guess);
     const auto coding = attribute_coding(method, space, relation, total, heights, by_area);
     return to_bytes(without_gil([&] { return ebz::attributes::encode(items, coding, view(values)); }));
 }
 
 Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
-                                const Input<int32_t>& item, int32_t n, size_t n_components,
+                                const Input<int32_t>& item, const Input<int32_t>& offsets, int32_t n, size_t n_components,
                                 const Input<double>& points, const Input<int32_t>& site,
                                 const Input<double>& guess, int method, int space, int relation, double total,
                                 bool heights, bool by_area) {
-    const auto items = attribute_items(opposite, item, n, n_components, points, site, guess);
+    const auto items = attribute_items(opposite, item, offsets, n, n_components, points, site, guess);
     const auto coding = attribute_coding(method, space, relation, total, heights, by_area);
     return to_numpy(without_gil([&] {
         std::vector<int64_t> values(static_cast<size_t>(n) * n_components);
@@ -45,10 +45,10 @@ Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t
 }  // namespace
 
 void bind_attributes(nb::module_& m) {
-    m.def("encode_attribute", &encode_attribute, "opposite"_a, "item"_a, "n"_a, "n_components"_a, "points"_a,
+    m.def("encode_attribute", &encode_attribute, "opposite"_a, "item"_a, "offsets"_a, "n"_a, "n_components"_a, "points"_a,
           "site"_a, "guess"_a, "method"_a, "space"_a, "relation"_a, "total"_a, "heights"_a, "by_area"_a, "values"_a,
           "The bytes of n rows of integers, of items of a surface, of its faces, or of a list.");
-    m.def("decode_attribute", &decode_attribute, "data"_a, "opposite"_a, "item"_a, "n"_a, "n_components"_a,
+    m.def("decode_attribute", &decode_attribute, "data"_a, "opposite"_a, "item"_a, "offsets"_a, "n"_a, "n_components"_a,
           "points"_a, "site"_a, "guess"_a, "method"_a, "space"_a, "relation"_a, "total"_a, "heights"_a, "by_area"_a,
           "The rows, flattened.");
 }
