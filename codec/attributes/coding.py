@@ -165,15 +165,13 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
     guess = np.zeros(0)
     if plan.guess != Guess.NONE and not plan.n_labels:
         guess = guesses.positions(plan, items)
-    is_flat = width == 2 and not plan.n_labels and plan.relation != Relation.OCTAHEDRAL
-    points = items.points.reshape(-1) if is_flat or Guess.HEIGHTS in plan.guess else np.zeros(0)
     return {
         "opposite": items.opposite,
         "item": items.item,
         "offsets": items.offsets,
         "n": items.n,
         "n_components": width,
-        "points": points,
+        "points": _points(plan, items, guess).reshape(-1),
         "site": items.site,
         "guess": guess.reshape(-1),
         "method": plan.method,
@@ -183,6 +181,12 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
         "heights": Guess.HEIGHTS in plan.guess,
         "by_area": Guess.AREA in plan.guess,
     }
+
+
+def _points(plan: Plan, items: Items, guess: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Where entries along the surface are, if that tells anything."""
+    tells = Guess.HEIGHTS in plan.guess if len(guess) else plan.method == Method.NUMBERS
+    return items.points if tells and items.is_by_corner else np.zeros(0)
 
 
 def _space(plan: Plan, array: EncodedArray) -> int:

@@ -12,6 +12,7 @@
 #include "../positions/lanes.hpp"
 #include "../positions/mixer.hpp"
 #include "curve.hpp"
+#include "initial_weights.hpp"
 
 namespace ebz::attributes {
 
@@ -36,18 +37,18 @@ class Decision {
 public:
     static constexpr size_t n_slots = 31, n_nodes = 32, n_levels = 12;
 
-    explicit Decision(size_t n_values)
+    // initial: the weights of a node at first.
+    template <class Initial>
+    Decision(size_t n_values, Initial initial)
         : log2_lines_(std::clamp(static_cast<int>(std::bit_width(n_values)), 9, 14)),
           mixer_(n_nodes, n_nodes * n_levels * 3),
           curve_(n_nodes * 3) {
-        constexpr float counted = 0.12f, spread = 0.18f, exact = 0.3f;
-        std::array<float, 8 * n_lanes> start{};
-        for (size_t i = 0; i < n_contexts; ++i) start[i] = counted;
-        for (size_t i = 0; i < n_candidates; ++i) {
-            start[n_contexts + i] = spread;
-            start[n_contexts + n_candidates + i] = exact;
+        for (size_t node = 0; node < n_nodes; ++node) {
+            std::array<float, 8 * n_lanes> start{};
+            const InitialWeights& weights = initial(node);
+            std::copy(weights.begin(), weights.end(), start.begin());
+            mixer_.start(node, start);
         }
-        for (size_t node = 0; node < n_nodes; ++node) mixer_.start(node, start);
         for (auto& lines : lines_) lines.resize(size_t{1} << log2_lines_);
     }
 
@@ -128,7 +129,7 @@ private:
         const float logit = mixer_.mix(inputs_, node, set * n_levels + level);
         p_ = positions::squash(logit);
         const float refined = curve_.refine(logit, set);
-        const float q = p_ + 0.35f * (refined - p_);
+        const float q = p_ + 0.5f * (refined - p_);
         p16_ = static_cast<uint32_t>(std::clamp(static_cast<int32_t>(q * 65536.0f), 1, 65535));
         return p16_;
     }
@@ -136,7 +137,7 @@ private:
     void learn(size_t node, size_t slot, unsigned upper, bool bit) {
         const float target = bit ? 1.0f : 0.0f;
         n_decisions_ += 1.0f;
-        const float rate = 0.0007f * (1.0f + 5.0f / (1.0f + n_decisions_ * (1.0f / 4000.0f)));
+        const float rate = 0.0005f * (1.0f + 5.0f / (1.0f + n_decisions_ * (1.0f / 4000.0f)));
         mixer_.update(inputs_, (target - p_) * rate);
         curve_.update(target, 0.02f);
         if (slot < n_slots) {

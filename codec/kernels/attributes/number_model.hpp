@@ -25,7 +25,7 @@ struct Expectation {
 
 class NumberModel {
 public:
-    explicit NumberModel(size_t n_values) : decision_(n_values) {}
+    explicit NumberModel(size_t n_values) : decision_(n_values, initial_weights_of_number) {}
 
     template <class Coder>
     int64_t code(Coder& coder, const Expectation& x, int64_t e) {

@@ -13,6 +13,7 @@
 #include "../positions/least_squares.hpp"
 #include "../positions/wrapping.hpp"
 #include "attributes.hpp"
+#include "hinges.hpp"
 #include "neighbourhood.hpp"
 #include "normal_guess.hpp"
 #include "number_model.hpp"
@@ -35,7 +36,8 @@ public:
           size_(values.size(), -1.0f),
           latest_(n_sites(items), -1),
           turns_(std::min(items.n_components, max_turns)),
-          guess_(items, coding, values, corners) {}
+          guess_(items, coding, values, corners),
+          hinges_(items.item.empty() || guess_.is_there() ? std::span<const double>() : items.points) {}
 
     // The item under way.
     void begin(int32_t v, const Neighbourhood& around) {
@@ -46,6 +48,7 @@ public:
         twin_ = items_.site.empty() ? -1 : latest_[static_cast<size_t>(items_.site[static_cast<size_t>(v)])];
         map_ = is_texture() ? texture_.predict(items_, v, around, values_, S::value) : TextureMap::Guess{};
         guess_.begin(v);
+        hinges_.begin(v, around);
         order_components();
         direct();
     }
@@ -184,13 +187,16 @@ private:
         spread_ = 1;
         is_implied_ = false;
         const bool is_row = items_.opposite.empty() && items_.item.empty();
+        const auto of = [&](int32_t item) { return value(item, c); };
         if (guess_.is_there()) put(guess, guess_(item_, c));
+        else if (hinges_.has_hinges()) put(guess, hinges_.unfolded(of));
         else if (is_row && turn > 0) put_value(guess, integer(item_, component(turn - 1)));
         else if (is_row && last_ >= 0) put_value(guess, integer(last_, items_.n_components - 1));
         if (map_.is_there) put(implied, map_.value[c]);
         else if (relates() && turn + 1 == items_.n_components) imply(c);
         else if (directed_ && turn == 1) put(implied, expected_[guess] + direction_.slope * guess_error_);
         else if (twin_ >= 0) put_value(implied, integer(twin_, c));
+        else if (items_.site.empty() && hinges_.has_mean()) put(implied, hinges_.mean(*around_, of));
     }
 
     bool relates() const { return coding_.relation == Relation::unit || coding_.relation == Relation::sum; }
@@ -261,7 +267,7 @@ private:
 
     // How far off each candidate may be.
     void scales(size_t c, size_t turn, const Turn& t) {
-        norm_ = directed_ && turn < 2 ? direction_.spread[turn] : 1.0;
+        norm_ = directed_ && turn < 2 ? direction_.spread[turn] : hinges_.extent();
         double sum = 0;
         int n = 0;
         for (size_t i = 0; i < around_->n_neighbours; ++i) {
@@ -326,7 +332,8 @@ private:
         x.context[0] = key(0, fine, 0);
         x.context[1] = key(1, signed_class(e1), signed_class(e2));
         x.context[2] = key(2, coarse(near), coarse(parallelogram) << 8 | coarse(implied));
-        x.context[3] = key(3, 0, static_cast<uint64_t>(off(near)) * 31 + static_cast<uint64_t>(off(guess)));
+        const int64_t told = hinges_.has_hinges() ? INT64_MAX : off(guess);
+        x.context[3] = key(3, 0, static_cast<uint64_t>(off(near)) * 31 + static_cast<uint64_t>(told));
         x.context[4] = key(4, signed_class(e1), static_cast<uint64_t>(base_));
         x.context[5] = key(5, apart, static_cast<uint64_t>(std::min(n_parallelograms_, 3)));
         x.context[6] = key(6, coarse(guess), coarse(average) << 8 | signed_class(e1));
@@ -341,6 +348,7 @@ private:
     std::vector<Turn> turns_;
     TextureMap texture_;
     NormalGuess<S> guess_;
+    Hinges hinges_;
     int32_t last_ = -1, before_last_ = -1;
 
     // The item under way.

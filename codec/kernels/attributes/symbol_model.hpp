@@ -22,7 +22,7 @@ class SymbolModel {
 public:
     static constexpr int max_bits = 16;
 
-    SymbolModel(size_t n_values, int n_bits) : decision_(n_values), n_bits_(n_bits) {}
+    SymbolModel(size_t n_values, int n_bits) : decision_(n_values, initial_weights_of_symbol), n_bits_(n_bits) {}
 
     template <class Coder>
     int64_t code(Coder& coder, const Likely& x, int64_t value) {
