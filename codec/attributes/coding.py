@@ -18,7 +18,7 @@ from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items
 from ebz.codec.attributes.lattices import bytes_of_floats
 from ebz.codec.attributes.octahedral import Octahedral
-from ebz.codec.attributes.plan import Guess, Method, Plan, Relation
+from ebz.codec.attributes.plan import Guess, Method, Plan
 from ebz.codec.attributes.precision import AttributePrecision, lattice_of
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import CorruptError, corrupt_at
