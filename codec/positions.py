@@ -34,6 +34,11 @@ FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 BELOW_LIGHT = {Method.MEDIUM: 7, Method.STRONG: 1}
 
 
+# What is tried too for so few floats that it takes no time to speak of.
+NEXT = {Method.FAST: Method.LIGHT, Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
+MAX_FEW = 1024
+
+
 class Cut(enum.IntEnum):
     """How polygons are cut to predict along; the numbers are those of Cut in the kernels."""
 
@@ -175,4 +180,7 @@ def _candidates(points: Points, dtype: np.dtype[Any], method: Method) -> Sequenc
         return [method]
     if in_floats == Method.FLOAT64:
         return [in_floats]
-    return [method] if method in (Method.FAST, Method.MEDIUM) else [in_floats, method]
+    methods = [method] if method in (Method.FAST, Method.MEDIUM) else [in_floats, method]
+    if len(points.integers) <= MAX_FEW and method in NEXT:
+        methods.append(NEXT[method])
+    return methods
