@@ -27,6 +27,10 @@ uint32_t bucket(int64_t x, int64_t limit) { return static_cast<uint32_t>(std::cl
 
 uint32_t low_bits(int64_t x) { return static_cast<uint32_t>(static_cast<uint64_t>(x)); }
 
+// How often a source was exact on earlier axes of this vertex: 0 if there were none, else never: 1,
+// sometimes: 2, always: 3.
+uint32_t agreement_of(size_t turn, size_t hits) { return turn == 0 ? 0 : hits == 0 ? 1 : hits < turn ? 2 : 3; }
+
 void add_value(Expectation& x, size_t i, int64_t value, uint32_t context) {
     x.value[i] = value;
     x.value_context[i] = static_cast<uint8_t>(context);  // < 64
@@ -35,9 +39,10 @@ void add_value(Expectation& x, size_t i, int64_t value, uint32_t context) {
 
 }  // namespace
 
-void Axes::begin(const Surroundings& s, const Prediction& p) {
+void Axes::begin(const Surroundings& s, const Prediction& p, const Twins* twin) {
     s_ = &s;
     p_ = &p;
+    twin_ = twin;
     plain_mean_ = p.plain;
     refined_mean_ = p.refined;
     covariance_ = p.covariance;
@@ -105,12 +110,10 @@ Axes::Nearest Axes::nearest(size_t d) const {
     return near;
 }
 
-// How often a source was exact on earlier axes of this vertex: 0 if there were none, else never: 1,
-// sometimes: 2, always: 3.
 uint32_t Axes::agreement(size_t turn, const Offset& at) const {
     size_t hits = 0;
     for (size_t i = 0; i < turn; ++i) hits += at[p_->axes[i]] == value_[p_->axes[i]] ? 1 : 0;
-    return turn == 0 ? 0 : hits == 0 ? 1 : hits < turn ? 2 : 3;
+    return agreement_of(turn, hits);
 }
 
 // Of predictions around this vertex; < 16.
@@ -163,6 +166,10 @@ void Axes::set_recalled(size_t turn, Expectation& x) {
         const Recall::Entry* r = recalls_[i].find(keys_[i]);
         if (r != nullptr) add_value(x, 4 + i, wrapping_difference(r->value, base(d)), r->hits + context);
         if (i == 0) along_axes_ = r;
+    }
+    if (twin_ != nullptr && twin_->exists() && (twin_->strength() > 0 || along_axes_ == nullptr)) {
+        const size_t strength = twin_->strength(), agreement = agreement_of(turn, twin_->n_agree());
+        return add_value(x, 7, wrapping_difference(twin_->value(d), base(d)), static_cast<uint32_t>(48 + 4 * strength + agreement));
     }
     if (along_axes_ == nullptr) return;
     const int64_t mirrored = wrapping_difference(mirrors_[d].sum, along_axes_->value);

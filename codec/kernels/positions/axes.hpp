@@ -9,6 +9,7 @@
 #include "prediction.hpp"
 #include "recall.hpp"
 #include "surroundings.hpp"
+#include "twins.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
@@ -16,11 +17,13 @@ namespace ebz::positions {
 // The three axes of one vertex, in the order p.axes.
 class Axes {
 public:
-    void begin(const Surroundings& s, const Prediction& p);
+    // twin: of the vertex, null where none are looked for.
+    void begin(const Surroundings& s, const Prediction& p, const Twins* twin);
     void find_contexts(size_t turn, Expectation& x);
     void expect(size_t turn, Expectation& x);  // after find_contexts
     void reveal(size_t turn, int64_t residual);
 
+    int64_t value(size_t d) const { return wrapping_sum(s_->origin[d], value_[d]); }  // once revealed
     int64_t base(size_t d) const { return wrapping_sum(s_->origin[d], base_[d]); }
     const Offset& residuals() const { return residual_; }
 
@@ -47,12 +50,12 @@ private:
     void set_contexts(size_t turn, Expectation& x) const;
     uint32_t agreement(size_t turn, const Offset& at) const;
     uint32_t exactness(size_t d) const;
-    int64_t value(size_t d) const { return wrapping_sum(s_->origin[d], value_[d]); }
     uint32_t neighbour_value(size_t i, size_t d) const;
 
     static constexpr size_t n_recalls = 3;
     const Surroundings* s_ = nullptr;
     const Prediction* p_ = nullptr;
+    const Twins* twin_ = nullptr;
     std::array<Recall, n_recalls> recalls_{Recall(14), Recall(14), Recall(14)};
     std::array<uint32_t, n_recalls> keys_{};
     std::array<Mirror, 3> mirrors_;  // by axis

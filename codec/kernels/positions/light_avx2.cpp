@@ -23,6 +23,7 @@
 #include "recall.hpp"
 #include "site.hpp"
 #include "surface.hpp"
+#include "twins.hpp"
 #include "wrapping.hpp"
 
 #include "../avx2.hpp"

@@ -33,7 +33,7 @@ public:
     // sites: as many as the surface has vertices.
     LightCoder(Coder& coder, const Surface& mesh, AxisOrder axes, Site<Unsigned>* sites)
         : coder_(coder), mesh_(mesh), vertex_(mesh.vertex.data()), axes_(axes), order_(mesh), surveyor_(mesh, sites),
-          recalls_(axes.is_fixed() ? static_cast<size_t>(mesh.n_vertices) : 0) {}
+          recalls_(axes.is_fixed() ? std::make_unique<LightRecalls<Unsigned>>(mesh, axes.last, surveyor_) : nullptr) {}
 
     void run() {
         const auto n_faces = static_cast<int32_t>(mesh_.vertex.size() / 3);
@@ -78,7 +78,7 @@ private:
         surveyor_.survey(from, s_);
         predictor_.predict(s_, !axes_.is_fixed());
         predictor_.expect(x_);
-        if (axes_.is_fixed()) recalls_.start(s_);
+        if (recalls_) recalls_->start(from, s_);
         const Position wanted = to_be_coded(from.vertex);
         const std::array<size_t, 3> axes = AxisOrder::ending_with(predictor_.last(axes_.is_fixed() ? axes_.last : 2));
         Position position{}, residuals{};
@@ -90,13 +90,14 @@ private:
             position[d] = x_.base[d] + residuals[d];
         }
         predictor_.learn(position);
+        if (recalls_) recalls_->learn(from, position);
         surveyor_.settle(from.vertex, position, as_floats(residuals));
     }
 
     int64_t code_axis(size_t turn, size_t d, int64_t e) {
-        const bool told = axes_.is_fixed() && recalls_.code(coder_.symbols, d, x_, e);
+        const bool told = recalls_ && recalls_->code(coder_.symbols, d, x_, e);
         if (!told) e = model_.code(coder_, d, contexts(turn, d), 5 * turn + std::min<size_t>(s_.n_tips, 4), x_.shift[d], e);
-        if (axes_.is_fixed()) recalls_.learn(d, e, x_.base[d] + static_cast<Unsigned>(e));
+        if (recalls_) recalls_->reveal(d, e, x_.base[d] + static_cast<Unsigned>(e));
         return e;
     }
 
@@ -123,7 +124,7 @@ private:
     LightSurroundings<Unsigned> s_;
     Predictor predictor_;
     LightExpectation<Unsigned> x_;
-    LightRecalls<Unsigned> recalls_;
+    std::unique_ptr<LightRecalls<Unsigned>> recalls_;  // none where coordinates slide
     Model model_;
     Position latest_{};
     std::array<LightSteps, 2> steps_;  // to components, within their first faces

@@ -48,6 +48,7 @@ public:
     LightSurveyor(const Surface& mesh, Site<Unsigned>* sites)
         : opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), known_(static_cast<size_t>(mesh.n_vertices)), sites_(sites) {}
 
+    bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
     Position at(int32_t v) const { return std::bit_cast<Position>(sites_[v].position); }
 
     void prefetch(const PredictedVertex& v) const {
@@ -99,8 +100,6 @@ private:
         }
         return true;
     }
-
-    bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
 
     void add_neighbour(Surroundings& s, int32_t u) const {
         const Position position = at(u);

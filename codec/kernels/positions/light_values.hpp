@@ -13,7 +13,7 @@ inline namespace EBZ_INSTRUCTIONS {
 
 class LightValues {
 public:
-    enum Kind : size_t { plain_base, expected_base, neighbour, tip, along, around, mirrored };
+    enum Kind : size_t { twin, plain_base, expected_base, neighbour, tip, along, around, mirrored };
 
     LightValues() { hits_.fill(first_hits); }
 
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    static constexpr size_t n_kinds = 7, n_contexts = n_kinds * 3 * 4 * 4, max_values = 6;
+    static constexpr size_t n_kinds = 8, n_contexts = n_kinds * 3 * 4 * 4, max_values = 7;
     static constexpr uint16_t first_hits = 8192;  // of 2^15
     static constexpr int least_hits = 600;
 

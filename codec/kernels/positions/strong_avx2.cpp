@@ -23,6 +23,7 @@
 #include "strong.hpp"
 #include "surroundings.hpp"
 #include "traversal.hpp"
+#include "twins.hpp"
 #include "wrapping.hpp"
 
 #include "../avx2.hpp"

@@ -15,10 +15,23 @@
 #include "strong.hpp"
 #include "surroundings.hpp"
 #include "traversal.hpp"
+#include "twins.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
+
+// What twins are to know.
+struct StrongSites {
+    const Traversal& traversal;
+    std::span<const int64_t> xyz;
+
+    bool known(int32_t v) const { return traversal.known(v); }
+    Twins::Position at(int32_t v) const {
+        const auto i = 3 * static_cast<size_t>(v);
+        return {xyz[i], xyz[i + 1], xyz[i + 2]};
+    }
+};
 
 template <class Coder>
 void code_strong(Coder& coder, const Surface& mesh, AxisOrder order, std::span<int64_t> xyz) {
@@ -30,6 +43,8 @@ void code_strong(Coder& coder, const Surface& mesh, AxisOrder order, std::span<i
     Axes axes;
     const auto model = std::make_unique<ResidualModel<Coder>>(coder, n);
     SeedModel seeds;
+    const std::unique_ptr<Twins> twins = order.is_fixed() ? std::make_unique<Twins>(mesh, order.last) : nullptr;
+    const StrongSites sites{traversal, xyz};
     Surroundings s;
     Prediction p;
     Expectation x;
@@ -41,7 +56,8 @@ void code_strong(Coder& coder, const Surface& mesh, AxisOrder order, std::span<i
             continue;
         }
         predictor.predict(s, p);
-        axes.begin(s, p);
+        if (twins) twins->start(v, {s.gates.data(), static_cast<size_t>(s.n_parallelograms)}, sites);
+        axes.begin(s, p, twins.get());
         for (size_t turn = 0; turn < 3; ++turn) {
             const size_t d = p.axes[turn];
             const int64_t base = axes.base(d);
@@ -51,7 +67,9 @@ void code_strong(Coder& coder, const Surface& mesh, AxisOrder order, std::span<i
             const int64_t e = model->code(x, wrapping_difference(position[d], base));
             position[d] = wrapping_sum(base, e);
             axes.reveal(turn, e);
+            if (twins) twins->reveal(d, position[d]);
         }
+        if (twins && s.n_parallelograms > 0) twins->learn(v, s.corner, sites.at(v), sites.at(s.gates[0].a), sites.at(s.gates[0].b));
         predictor.learn(v, s, p, surveyor.point(s, v), axes.residuals());
     }
 }

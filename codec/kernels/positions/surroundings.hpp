@@ -9,6 +9,7 @@
 
 #include "surface.hpp"
 #include "traversal.hpp"
+#include "twins.hpp"
 
 namespace ebz::positions {
 
@@ -27,9 +28,11 @@ struct Surroundings {
     static constexpr int max_parallelograms = 6, max_neighbours = 16;  // further ones are ignored
 
     std::array<Parallelogram, max_parallelograms> parallelograms;
+    std::array<Gate, max_parallelograms> gates;  // of the parallelograms
     std::array<int32_t, max_neighbours> neighbours;
     std::array<Offset, max_neighbours> neighbour_offset;
     Offset origin;  // of all points: a known neighbour, so that differences stay small
+    int32_t corner;  // of the vertex, in the face of the first gate
     int n_parallelograms, n_neighbours;
 };
 
@@ -58,7 +61,8 @@ public:
         }
         s.n_parallelograms = std::min(gates.n, Surroundings::max_parallelograms);
         for (size_t i = 0; i < static_cast<size_t>(s.n_parallelograms); ++i)
-            build(s, s.parallelograms[i], gates.items[i].id);
+            build(s, i, gates.items[i].id);
+        s.corner = gates.n > 0 ? gates.items[0].id : -1;
     }
 
     // Corrupt streams may hold anything, hence unsigned arithmetic.
@@ -102,9 +106,11 @@ private:
         return across < 0 ? 0 : known_.rank(vertex(previous(across)));
     }
 
-    void build(const Surroundings& s, Parallelogram& p, int32_t c) const {
+    void build(Surroundings& s, size_t i, int32_t c) const {
         const int32_t across = opposite(next(c));
-        const Offset a = offset(s, vertex(next(c))), b = offset(s, vertex(previous(c))), o = offset(s, vertex(previous(across)));
+        const Gate gate = s.gates[i] = {vertex(next(c)), vertex(previous(c)), vertex(previous(across))};
+        const Offset a = offset(s, gate.a), b = offset(s, gate.b), o = offset(s, gate.o);
+        Parallelogram& p = s.parallelograms[i];
         for (size_t d = 0; d < 3; ++d)
             p.tip[d] = static_cast<int64_t>(static_cast<uint64_t>(a[d]) + static_cast<uint64_t>(b[d]) - static_cast<uint64_t>(o[d]));
         p.a = to_point(a);

@@ -1,0 +1,162 @@
+// Vertices that correspond to ones before, as those of a mirrored half or of a repeated part do.
+//
+// Where the ends of an edge have twins, so has the third corner of the face beyond it: along the connectivity, which is
+// known, from the edge between the twins.  A first twin is found by coordinates or differences that are the same.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "recall.hpp"
+#include "surface.hpp"
+#include "wrapping.hpp"
+
+namespace ebz::positions {
+
+// A face beyond the edge from a to b, of which the third corner is wanted; o: that of the face before.
+struct Gate {
+    int32_t a, b, o;
+};
+
+class Twins {
+public:
+    using Position = std::array<int64_t, 3>;
+
+    // last: the axis along which the others tell of a twin.
+    Twins(const Surface& mesh, size_t last)
+        : opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), last_(last),
+          twin_(static_cast<size_t>(mesh.n_vertices), -1), corner_(twin_.size(), -1),
+          places_(log2_entries(twin_.size())), shapes_(log2_entries(twin_.size())) {}
+
+    // sites.known(u), sites.at(u): whether a vertex is known, and where it is then.
+    template <class Sites>
+    void start(int32_t v, std::span<const Gate> gates, const Sites& sites) {
+        found_ = -1;
+        n_agree_ = 0;
+        for (const Gate& gate : gates) {
+            const Counterpart other = across(gate);
+            if (other.vertex < 0 || other.vertex == v || !sites.known(other.vertex)) continue;
+            found_ = other.vertex;
+            const int32_t ta = of(gate.a), tb = of(gate.b);
+            strength_ = ta == gate.a && tb == gate.b ? 0 : 1 + std::min<size_t>(run_, 2);
+            const Position a = sites.at(gate.a), b = sites.at(gate.b), like_a = sites.at(ta), like_b = sites.at(tb), like = sites.at(found_);
+            for (size_t d = 0; d < 3; ++d) {
+                const bool mirrored = is_mirrored(wrapping_difference(b[d], a[d]), wrapping_difference(like_b[d], like_a[d]), other.flipped && d == last_);
+                const int64_t off = wrapping_difference(like[d], like_a[d]);
+                value_[d] = mirrored ? wrapping_difference(a[d], off) : wrapping_sum(a[d], off);
+            }
+            return;
+        }
+    }
+
+    bool exists() const { return found_ >= 0; }
+    int64_t value(size_t d) const { return value_[d]; }
+
+    // 0 for a twin of which little is to be expected, at most 3.
+    size_t strength() const { return strength_; }
+    // Axes so far on which the value was right.
+    size_t n_agree() const { return n_agree_; }
+
+    void reveal(size_t d, int64_t value) { n_agree_ += exists() && value == value_[d] ? 1 : 0; }
+
+    // corner: of the vertex, beyond an edge from a to b.
+    void learn(int32_t v, int32_t corner, const Position& position, const Position& a, const Position& b) {
+        const bool right = exists() && n_agree_ >= 2;
+        if (exists()) run_ = right ? run_ + 1 : 0;
+        const uint32_t shape = shape_of(position, a, b), place = place_of(position);
+        const Recall::Entry *alike = shapes_.find(shape), *aligned = places_.find(place);
+        int32_t twin = v;  // as on a plane of symmetry
+        if (right) twin = found_;
+        else if (alike != nullptr) twin = static_cast<int32_t>(alike->value);
+        else if (aligned != nullptr) twin = static_cast<int32_t>(aligned->value);
+        twin_[static_cast<size_t>(v)] = twin;
+        corner_[static_cast<size_t>(v)] = corner;
+        shapes_.learn(shape, v);
+        places_.learn(place, v);
+    }
+
+private:
+    static constexpr int most_turns = 12;
+
+    struct Counterpart {
+        int32_t vertex;  // -1 if there is none
+        bool flipped;    // in orientation
+    };
+
+    int32_t of(int32_t v) const { return twin_[static_cast<size_t>(v)]; }
+
+    // Both faces at the edge between the twins; not the one beyond which the twin of o is.
+    Counterpart across(const Gate& gate) const {
+        const int32_t a = of(gate.a), b = of(gate.b), o = of(gate.o);
+        if (a < 0 || b < 0 || corner_[static_cast<size_t>(a)] < 0) return {-1, false};
+        int32_t same = -1, flipped = -1;
+        const auto look = [&](int32_t c) {
+            const int32_t after = vertex_[next(c)], before = vertex_[previous(c)];
+            if (after == b) same = before;
+            if (before == b) flipped = after;
+        };
+        const int32_t first = corner_[static_cast<size_t>(a)];
+        int32_t c = first;
+        for (int i = 0; c >= 0 && i < most_turns; ++i) {
+            look(c);
+            c = opposite_[previous(c)];
+            if (c == first) break;
+        }
+        // From a boundary the other way.
+        for (int i = 0; c < 0 && i < most_turns; ++i) {
+            const int32_t edge = opposite_[i == 0 ? first : c];
+            if (edge < 0) break;
+            c = next(edge);
+            look(c);
+        }
+        if (flipped >= 0 && flipped != o) return {flipped, true};
+        return {same != o ? same : -1, false};
+    }
+
+    // By the edge and its twin's, as differences may be one off.
+    static bool is_mirrored(int64_t edge, int64_t other, bool otherwise) {
+        const uint64_t same = magnitude(wrapping_difference(edge, other)), opposed = magnitude(wrapping_sum(edge, other));
+        return same == opposed ? otherwise : opposed < same;
+    }
+
+    // The other axes.
+    uint32_t place_of(const Position& position) const {
+        const size_t i = last_ == 0 ? 1 : 0, j = last_ == 2 ? 1 : 2;
+        return mixed(mixed(0, position[i]), position[j]);
+    }
+
+    // Up to mirror images.
+    static uint32_t shape_of(const Position& position, const Position& a, const Position& b) {
+        uint32_t h = 0;
+        for (size_t d = 0; d < 3; ++d) {
+            h = mixed(h, static_cast<int64_t>(magnitude(wrapping_difference(position[d], a[d]))));
+            h = mixed(h, static_cast<int64_t>(magnitude(wrapping_difference(b[d], a[d]))));
+        }
+        return h;
+    }
+
+    static uint32_t mixed(uint32_t h, int64_t x) {
+        h = (h ^ static_cast<uint32_t>(x)) * 0x85EBCA6Bu;
+        return (h ^ h >> 15) * 0xC2B2AE35u;
+    }
+
+    static int log2_entries(size_t n) { return std::clamp(static_cast<int>(std::bit_width(n)) + 2, 8, 18); }
+
+    const int32_t *opposite_, *vertex_;
+    size_t last_;
+    std::vector<int32_t> twin_, corner_;
+    Recall places_, shapes_;
+    size_t run_ = 0;  // sites in a row whose twin was right
+
+    // Of the vertex under way.
+    int32_t found_ = -1;
+    Position value_{};
+    size_t strength_ = 0, n_agree_ = 0;
+};
+
+}  // namespace ebz::positions
