@@ -33,7 +33,7 @@ uint32_t agreement_of(size_t turn, size_t hits) { return turn == 0 ? 0 : hits ==
 
 void add_value(Expectation& x, size_t i, int64_t value, uint32_t context) {
     x.value[i] = value;
-    x.value_context[i] = static_cast<uint8_t>(context);  // < 64
+    x.value_context[i] = static_cast<uint8_t>(context);
     x.values |= 1u << i;
 }
 
@@ -132,10 +132,15 @@ void Axes::set_values(size_t turn, Expectation& x) {
     const uint32_t exact = exactness(d);
     add_value(x, 0, nearest_.first, exact + 16 * first);
     if (nearest_.has_second) add_value(x, 1, nearest_.second, exact + 16 * second);
-    for (size_t i = 0; i < 2 && i < static_cast<size_t>(s_->n_parallelograms); ++i) {
+    const bool has_twin = twin_ != nullptr && twin_->exists();
+    const int n_tips = std::min(s_->n_parallelograms, has_twin ? 1 : 2);
+    for (size_t i = 0; i < static_cast<size_t>(n_tips); ++i) {
         const Offset& tip = s_->parallelograms[i].tip;
         add_value(x, 2 + i, wrapping_difference(tip[d], base_[d]), exact + 16 * agreement(turn, tip));
     }
+    if (!has_twin) return;
+    const auto strength = static_cast<uint32_t>(twin_->strength());
+    add_value(x, 3, wrapping_difference(twin_->value(d), base(d)), 64 + 4 * strength + agreement_of(turn, twin_->n_agree()));
 }
 
 // 0 where there is no such neighbour.
@@ -166,10 +171,6 @@ void Axes::set_recalled(size_t turn, Expectation& x) {
         const Recall::Entry* r = recalls_[i].find(keys_[i]);
         if (r != nullptr) add_value(x, 4 + i, wrapping_difference(r->value, base(d)), r->hits + context);
         if (i == 0) along_axes_ = r;
-    }
-    if (twin_ != nullptr && twin_->exists() && (twin_->strength() > 0 || along_axes_ == nullptr)) {
-        const size_t strength = twin_->strength(), agreement = agreement_of(turn, twin_->n_agree());
-        return add_value(x, 7, wrapping_difference(twin_->value(d), base(d)), static_cast<uint32_t>(48 + 4 * strength + agreement));
     }
     if (along_axes_ == nullptr) return;
     const int64_t mirrored = wrapping_difference(mirrors_[d].sum, along_axes_->value);

@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    static constexpr size_t n = Expectation::n_values;
+    static constexpr size_t n = Expectation::n_values, n_contexts = Expectation::n_value_contexts;
     static_assert(n == 8, "one vector");
     static constexpr CounterState sure_hits = 0xE8000000u;  // 0.9: below, a decision of its own does not pay
     static constexpr CounterState min_hits = 1u << 26;  // 1/64: rarer ones do not pay
@@ -105,8 +105,8 @@ private:
 
     using Nodes = std::array<CounterState, n_nodes>;
 
-    std::array<std::array<Nodes, 64>, n> told_{};            // by context: whether a value told right
-    std::array<std::array<CounterState, 64>, n> hits_{};  // how often a value is the one
+    std::array<std::array<Nodes, n_contexts>, n> told_{};         // by context: whether a value told right
+    std::array<std::array<CounterState, n_contexts>, n> hits_{};  // how often a value is the one
     std::array<Nodes*, n> nodes_{};
     std::array<CounterState*, n> hit_{};
     std::array<int64_t, n> value_{}, distance_{};
