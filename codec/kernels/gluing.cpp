@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "adaptive_bit.hpp"
 #include "errors.hpp"
@@ -22,25 +23,34 @@ public:
           after_(site.size(), none),
           before_(site.size(), none),
           starts_(site.size()),
-          older_(site.size(), none) {
-        find_boundaries();
-        find_starts();
+          older_(site.size(), none),
+          latest_(site.size(), none) {
+        find_boundaries_and_starts();
     }
 
     void run() {
-        Index n_left = pieces_.n_copies;
-        for (Index v = 0; v < pieces_.n_vertices; ++v) {
-            if (n_left > 0 && v > 0 && code_is_copy(v)) {
+        std::vector<uint64_t> gaps = code_gaps();
+        gaps.push_back(UINT64_MAX);
+        auto gap = gaps.begin();
+        const auto is_copy = [&](Index v) {
+            if (!is_inside(v)) return code_is_copy(v);
+            if ((*gap)-- > 0) return false;
+            ++gap;
+            return true;
+        };
+        Index v = 0;
+        for (Index n_left = pieces_.n_copies; n_left > 0; ++v) {
+            if (v == pieces_.n_vertices) throw Corrupt("fewer copies than declared");
+            if (v > 0 && is_copy(v)) {
                 site_[v] = code_site(v);
                 --n_left;
             } else {
-                site_[v] = n_sites();
-                latest_.push_back(none);
+                site_[v] = n_sites_++;
             }
             older_[v] = latest_[site_[v]];
             latest_[site_[v]] = v;
         }
-        if (n_left > 0) throw Corrupt("fewer copies than declared");
+        std::iota(site_.begin() + v, site_.end(), n_sites_);
     }
 
 private:
@@ -56,10 +66,48 @@ private:
         }
     };
 
-    Index n_sites() const { return static_cast<Index>(latest_.size()); }
+    // Neither on a boundary nor the first of a component.
+    bool is_inside(Index v) const { return after_[v] == none && !starts_[v]; }
 
-    void find_boundaries() {
-        for (Index h = 0; h < n_corners(); ++h) {
+    // Copies inside are rare: how many vertices inside precede each, since the one before.
+    std::vector<uint64_t> code_gaps() {
+        std::vector<uint64_t> gaps;
+        if constexpr (Coder::encoding) gaps = find_gaps();
+        const uint64_t n = n_inside_.code(coder_, gaps.size());
+        if (n > static_cast<uint64_t>(pieces_.n_copies)) throw Corrupt("more copies inside than copies");
+        gaps.resize(n);
+        for (uint64_t& gap : gaps) gap = gap_.code(coder_, gap);
+        return gaps;
+    }
+
+    std::vector<uint64_t> find_gaps() const {
+        std::vector<uint64_t> gaps;
+        uint64_t gap = 0;
+        Index n_sites = 0;
+        for (Index v = 0; v < pieces_.n_vertices; ++v) {
+            const bool is_copy = site_[v] < n_sites;
+            n_sites += !is_copy;
+            if (!is_inside(v)) continue;
+            if (is_copy) gaps.push_back(gap);
+            gap = is_copy ? 0 : gap + 1;
+        }
+        return gaps;
+    }
+
+    // Most triangles have an earlier neighbour and no boundary.
+    void find_boundaries_and_starts() {
+        const Index* const opposite = pieces_.opposite.data();
+        for (Index first = 0; first < n_corners(); first += 3) {
+            const Index a = opposite[first], b = opposite[first + 1], c = opposite[first + 2];
+            if ((a | b | c) < 0) [[unlikely]] find_boundaries(first);
+            // Components follow one another: one starts with a triangle that has no neighbour among those before.
+            const auto none_before = [&](Index h) { return static_cast<uint32_t>(h) > static_cast<uint32_t>(first); };
+            if (none_before(a) && none_before(b) && none_before(c)) starts_[pieces_.vertex[first]] = true;
+        }
+    }
+
+    void find_boundaries(Index first) {
+        for (Index h = first; h < first + 3; ++h) {
             if (pieces_.opposite[h] != none) continue;
             const Index from = pieces_.vertex[h], to = pieces_.vertex[next(h)];
             after_[from] = to;
@@ -67,19 +115,10 @@ private:
         }
     }
 
-    // Components follow one another: one starts with a triangle that has no neighbour among those before.
-    void find_starts() {
-        for (Index first = 0; first < n_corners(); first += 3) {
-            const auto is_before = [&](Index h) { return h != none && h < first; };
-            const auto across = pieces_.opposite.subspan(static_cast<size_t>(first), 3);
-            if (std::none_of(across.begin(), across.end(), is_before)) starts_[pieces_.vertex[first]] = true;
-        }
-    }
-
     Index n_corners() const { return static_cast<Index>(pieces_.opposite.size()); }
 
     bool code_is_copy(Index v) {
-        const bool truth = Coder::encoding && site_[v] < n_sites();
+        const bool truth = Coder::encoding && site_[v] < n_sites_;
         if (starts_[v]) return latest_start_ = start_bit_[latest_start_].code(coder_, truth);
         return copy_bit_[state(before_[v], v)][state(after_[v], v)].code(coder_, truth);
     }
@@ -99,7 +138,7 @@ private:
         }
         Index& base = base_[starts_[v]];
         const int64_t step = unzigzag(step_[starts_[v]].code(coder_, zigzag(int64_t{site_[v]} - base)));
-        if (step < -int64_t{base} || step >= int64_t{n_sites()} - base) throw Corrupt("a copy of a vertex that is not yet there");
+        if (step < -int64_t{base} || step >= int64_t{n_sites_} - base) throw Corrupt("a copy of a vertex that is not yet there");
         return base += static_cast<Index>(step);
     }
 
@@ -123,15 +162,17 @@ private:
     std::span<Index> site_;
     Coder& coder_;
     std::vector<Index> after_, before_;  // the neighbours along the boundary
-    std::vector<bool> starts_;           // whether a component starts with the vertex
+    std::vector<uint8_t> starts_;        // whether a component starts with the vertex
     std::vector<Index> older_;           // the piece vertex before each at its site
     std::vector<Index> latest_;          // at each site
+    Index n_sites_ = 0;
     std::array<Index, 2> base_{};        // the site that steps are told from, by whether a component starts
     bool latest_start_ = false;
     std::array<AdaptiveBit, 2> start_bit_;
     std::array<std::array<AdaptiveBit, 3>, 3> copy_bit_;
     std::array<AdaptiveBit, max_candidates> candidate_bit_;
     std::array<IntegerModel, 2> step_;
+    IntegerModel n_inside_, gap_;
 };
 
 }  // namespace

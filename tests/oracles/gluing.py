@@ -1,7 +1,7 @@
 """The sites of piece vertices once more, as FORMAT.md section 7 words them."""
 
 from collections import defaultdict
-from itertools import chain
+from itertools import chain, islice
 
 from tests.oracles.integers import AdaptiveBit, IntegerModel
 from tests.oracles.range_coder import Decoder
@@ -31,8 +31,14 @@ class Gluing:
         return self.bits[context].code(self.coder, False)
 
     def decode(self, n_copies: int, n_pieces: int) -> list[int]:
+        not_inside = self.starts | self.after.keys()
+        inside = iter([v for v in range(n_pieces) if v not in not_inside])
+        n_inside, gap = IntegerModel().code(self.coder, 0) if n_copies else 0, IntegerModel()
+        gaps = [gap.code(self.coder, 0) for _ in range(n_inside)]
+        copies_inside = {next(islice(inside, gap, None)) for gap in gaps}
         for v in range(n_pieces):
-            if v > 0 and n_copies > 0 and self.is_copy(v):
+            is_asked = v > 0 and n_copies > 0 and v in not_inside
+            if v in copies_inside or (is_asked and self.is_copy(v)):
                 n_copies -= 1
                 site = self.copied(v)
             else:
