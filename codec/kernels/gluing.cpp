@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include "adaptive_bit.hpp"
 #include "errors.hpp"
@@ -42,13 +43,13 @@ public:
         for (Index n_left = pieces_.n_copies; n_left > 0; ++v) {
             if (v == pieces_.n_vertices) throw Corrupt("fewer copies than declared");
             if (v > 0 && is_copy(v)) {
-                site_[v] = code_site(v);
+                const Index site = site_[v] = code_site(v);
+                older_[v] = std::exchange(latest_[site], v);
                 --n_left;
             } else {
+                latest_[n_sites_] = v;
                 site_[v] = n_sites_++;
             }
-            older_[v] = latest_[site_[v]];
-            latest_[site_[v]] = v;
         }
         std::iota(site_.begin() + v, site_.end(), n_sites_);
     }
@@ -106,7 +107,7 @@ private:
         }
     }
 
-    void find_boundaries(Index first) {
+    [[gnu::noinline]] void find_boundaries(Index first) {
         for (Index h = first; h < first + 3; ++h) {
             if (pieces_.opposite[h] != none) continue;
             const Index from = pieces_.vertex[h], to = pieces_.vertex[next(h)];
