@@ -51,8 +51,8 @@ public:
     // are_told: whether it is told first which points have several vertices; else all may.
     void run(bool are_told) {
         are_told = coder_.raw(are_told, 1) != 0;
-        if (!are_told) std::fill(several_.begin(), several_.end(), 1);
-        code_several(Coder::encoding ? find_several() : std::vector<uint8_t>(several_.size()));
+        if (are_told) code_several(Coder::encoding ? find_several() : std::vector<uint8_t>(several_.size()));
+        else std::fill(several_.begin(), several_.end(), 1);
         for (Index first = 0; first < n_corners(); first += 3) {
             // Most triangles have no corner at a point of several vertices.
             if (!(has_several(first) | has_several(first + 1) | has_several(first + 2))) continue;
