@@ -180,7 +180,8 @@ def _candidates(points: Points, dtype: np.dtype[Any], method: Method) -> Sequenc
         return [method]
     if in_floats == Method.FLOAT64:
         return [in_floats]
-    methods = [method] if method in (Method.FAST, Method.MEDIUM) else [in_floats, method]
+    in_integers = method in (Method.FAST, Method.MEDIUM)
+    methods = [method] if in_integers else [in_floats, method]
     if len(points.integers) <= MAX_FEW and method in NEXT:
         methods.append(NEXT[method])
     return methods
