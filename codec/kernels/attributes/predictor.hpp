@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../positions/least_squares.hpp"
+#include "../positions/recall.hpp"
 #include "../positions/wrapping.hpp"
 #include "attributes.hpp"
 #include "hinges.hpp"
@@ -91,6 +92,7 @@ public:
         difference_[turn % kept] = wrapping_difference(value, base_);
         size_[at(item_, c)] = static_cast<float>(std::min(distance(actual, S::value(base_)) / norm_, 1e30));
         t.last = difference_[turn % kept];
+        recall_.learn(key_, mirrored(value));
         guess_error_ = actual - expected_[guess];
     }
 
@@ -161,9 +163,22 @@ private:
         if (second_ >= 0) put_value(second, integer(second_, c));
         gather_special(c, turn);
         const bool tells_twin = twin_ >= 0 && directed_ && turn > 0;
+        recall(c, turn);
         if (tells_twin) put_value(last, integer(twin_, c));
+        else if (recalled_ != nullptr) put_value(last, mirrored(recalled_->value));
         else if (last_ >= 0 && last_ != near_) put_value(last, integer(last_, c));
     }
+
+    // What came the last time that the nearest value and the next, or the component before, were these, perhaps mirrored.
+    void recall(size_t c, size_t turn) {
+        const int64_t a = near_ >= 0 ? integer(near_, c) : 0, b = second_ >= 0 ? integer(second_, c) : 0;
+        is_mirrored_ = a < 0;
+        const int64_t other = turn > 0 ? integer(item_, component(turn - 1)) : mirrored(b);
+        key_ = hash(hash(c, static_cast<uint64_t>(mirrored(a))), static_cast<uint64_t>(other));
+        recalled_ = recall_.find(key_);
+    }
+
+    int64_t mirrored(int64_t x) const { return is_mirrored_ ? S::mirrored(x) : x; }
 
     void gather_parallelograms(size_t c) {
         double sum = 0, least = 0, most = 0;
@@ -315,6 +330,7 @@ private:
             const unsigned before = turn == 0 ? 0 : 1 + (hits_ >> k & 1);
             x.value_context[k] = static_cast<uint8_t>(before * 8 + t.history[k]);
         }
+        if (recalled_ != nullptr) x.value_context[last] = static_cast<uint8_t>(23 + std::min<uint32_t>(recalled_->hits, 8));
         x.turn = turn;
         x.expected_class = std::min(size_class(best_scale_), 56);
         x.level = static_cast<size_t>(std::min(size_class(best_scale_ * 2), static_cast<int>(Decision::n_levels) - 1));
@@ -349,6 +365,7 @@ private:
     TextureMap texture_;
     NormalGuess<S> guess_;
     Hinges hinges_;
+    positions::Recall recall_{14};
     int32_t last_ = -1, before_last_ = -1;
 
     // The item under way.
@@ -368,6 +385,9 @@ private:
     unsigned is_there_ = 0;
     Fit::Vector features_{};
     double norm_ = 1, guess_error_ = 0;
+    uint32_t key_ = 0;
+    const positions::Recall::Entry* recalled_ = nullptr;
+    bool is_mirrored_ = false;
     bool is_implied_ = false;
     double mean_ = 0, local_ = 1, unit_ = 1, spread_ = 1, disagreement_ = 0, best_scale_ = 1;
     int64_t base_ = 0;

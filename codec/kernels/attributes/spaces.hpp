@@ -16,6 +16,8 @@ enum class Space : uint8_t { integers, float32, float64 };
 struct IntegerSpace {
     static double value(int64_t x) { return static_cast<double>(x); }
     static int64_t nearest(double x) { return positions::rounded(x); }
+    // That of the other sign.
+    static int64_t mirrored(int64_t x) { return positions::wrapping_difference(0, x); }
     // The distance of neighbouring values at x.
     static double unit(double) { return 1.0; }
     // Where x is among the integers from base on.
@@ -26,6 +28,7 @@ template <class Base, class Float>
 struct FloatSpaceOf {
     static double value(int64_t x) { return Base::value(x); }
     static int64_t nearest(double x) { return Base::mean(x, 1); }
+    static int64_t mirrored(int64_t x) { return -1 - x; }
     static double offset(double x, int64_t base) {
         return static_cast<double>(positions::wrapping_difference(nearest(x), base));
     }
