@@ -18,7 +18,7 @@ from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import Table
-from ebz.codec.polygons import PolygonCorners, PolygonCounts, PolygonSource
+from ebz.codec.polygons import Cut, PolygonCorners, PolygonCounts, PolygonSource, Triangles
 from ebz.codec.specials import decode_specials, encode_specials
 
 Int32s = npt.NDArray[np.int32]
@@ -77,6 +77,17 @@ class Surface:
         if not self.has_copies:
             return self.piece_vertex
         return _kernels.glue(self.piece_vertex, self.vertex_of_piece)
+
+    @cached_property
+    def triangles(self) -> Triangles:
+        """Along which to predict, by few operations."""
+        return self.cut(Cut.COMPLETING)
+
+    def cut(self, way: Cut) -> Triangles:
+        """Along which to predict: polygons are cut anew."""
+        if self.polygons is None:
+            return Triangles(self.opposite)
+        return polygons.cut(self.polygons, self.opposite, self.vertex, self.n_vertices, way)
 
     @property
     def has_copies(self) -> bool:

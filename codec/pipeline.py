@@ -106,7 +106,7 @@ def encode(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
     )
     placed = lattice.taken(stored, order.vertices)
-    sites = Sites(surface.opposite, split.vertex, placed, split.site, surface.polygons)
+    sites = Sites(surface, split.vertex, placed, split.site)
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -178,7 +178,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         exact = _decode_values(streams.exception_values, encoded)
     vertices = split.at_sites(lattice.restore(points, encoded.dtype, exact))
     report("attributes", 3, N_STAGES)
-    sites = Sites(surface.opposite, split.vertex, vertices, split.site, surface.polygons)
+    sites = Sites(surface, split.vertex, vertices, split.site)
     carried = Carried(
         coding.decode(encoded.vertex_attributes, sites.by_vertex)
         if encoded.vertex_attributes

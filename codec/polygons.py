@@ -1,10 +1,13 @@
 """Faces of any number of corners: all corners in one array, and where those of a face begin."""
 
+import enum
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from ebz.codec import _kernels
 
 Int32s = npt.NDArray[np.int32]
 Int64s = npt.NDArray[np.int64]
@@ -34,6 +37,52 @@ class PolygonCorners:
         number[self.corner] = np.arange(len(self.corner), dtype=np.int32)
         across: Int32s = number[opposite[self.corner]]  # -1 is the last entry
         return across
+
+
+class Cut(enum.IntEnum):
+    """How polygons are cut to predict along; the numbers are those of Cut in the kernels."""
+
+    COMPLETING = 0
+    REGULAR = 1
+    TWICE = 2
+
+
+@dataclass(frozen=True)
+class Triangles:
+    """The triangles along which values are predicted.
+
+    opposite: (3t,) the half-edge across.  corner: (3t,) the corner of the surface's triangles that
+    each is; None where these are the triangles.
+    """
+
+    opposite: Int32s
+    corner: Int32s | None = None
+
+    def at_corners(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Those of the corners of the surface's triangles, of the corners here."""
+        return values if self.corner is None else values[self.corner]
+
+    def numbered(self, item: Int32s, n: int) -> tuple[Int32s, Int32s | None]:
+        """Of n items by corner, new numbers by corner here, and the item of each number.
+
+        Numbers are by first corner here, then of what has none; None where they are as they were.
+        """
+        if self.corner is None:
+            return item, None
+        number, first = _kernels.number_by_first_use(item[self.corner], n)
+        is_left = np.ones(n, bool)
+        is_left[first] = False
+        return number, np.concatenate([first, np.flatnonzero(is_left).astype(np.int32)])
+
+
+def cut(
+    polygons: PolygonCorners, opposite: Int32s, vertex: Int32s, n_vertices: int, way: Cut
+) -> Triangles:
+    """Polygons cut in another way; opposite, vertex: of the corners of the surface's triangles."""
+    offsets = polygons.offsets.astype(np.int32)
+    across, own = polygons.across(opposite), vertex[polygons.corner]
+    opposite, corner = _kernels.cut_polygons(own, offsets, across, n_vertices, way)
+    return Triangles(opposite, polygons.corner[corner])
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ebz.codec import _kernels, threads
 from ebz.codec.connectivity import Surface
 from ebz.codec.lattice import FloatLattice, Lattice, Points, SingleLattice
+from ebz.codec.polygons import Cut
 
 Int32s = npt.NDArray[np.int32]
 
@@ -32,20 +33,9 @@ FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 
 # Where light takes fewer bits a point, values repeat so much that these may be shorter.
 BELOW_LIGHT = {Method.MEDIUM: 7, Method.STRONG: 1}
-
-
 # What is tried too for so few floats that it takes no time to speak of.
 NEXT = {Method.FAST: Method.LIGHT, Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
 MAX_FEW = 1024
-
-
-class Cut(enum.IntEnum):
-    """How polygons are cut to predict along; the numbers are those of Cut in the kernels."""
-
-    COMPLETING = 0
-    REGULAR = 1
-    TWICE = 2
-
 
 # Those that are tried; of the other methods the first.
 CUTS = {Method.LIGHT: (Cut.COMPLETING, Cut.TWICE), Method.STRONG: tuple(Cut)}
@@ -148,22 +138,10 @@ def _cuts(surface: Surface, methods: Sequence[Method]) -> list[Coding]:
 
 def _along(surface: Surface, n_vertices: int, way: Cut) -> Along:
     """Of n vertices, those of the surface first."""
-    polygons = surface.polygons
-    if polygons is None:
-        return Along(surface.opposite, surface.vertex, n_vertices)
-    vertex = surface.vertex[polygons.corner]
-    opposite, corner = _kernels.cut_polygons(
-        vertex,
-        polygons.offsets.astype(np.int32),
-        polygons.across(surface.opposite),
-        n_vertices,
-        way,
-    )
-    number, order = _kernels.number_by_first_use(vertex[corner], n_vertices)
-    is_left = np.ones(n_vertices, bool)
-    is_left[order] = False
-    rest = np.flatnonzero(is_left).astype(np.int32)
-    return Along(opposite, number, n_vertices, np.concatenate([order, rest]))
+    is_usual = way == Cut.COMPLETING
+    triangles = surface.triangles if is_usual else surface.cut(way)
+    vertex, order = triangles.numbered(surface.vertex, n_vertices)
+    return Along(triangles.opposite, vertex, n_vertices, order)
 
 
 def float_method(lattice: Lattice, itemsize: int) -> Method | None:

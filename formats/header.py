@@ -26,8 +26,8 @@ from ebz.codec.lattice import (
 )
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
-from ebz.codec.polygons import PolygonCounts
-from ebz.codec.positions import FLOAT_METHODS, Coding, Cut, Method, can_cut
+from ebz.codec.polygons import Cut, PolygonCounts
+from ebz.codec.positions import FLOAT_METHODS, Coding, Method, can_cut
 from ebz.formats import layout, tables
 
 MAX_COUNT = 2**63

@@ -8,7 +8,7 @@ from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
 from ebz.codec.order import Method as OrderMethod
-from ebz.codec.positions import Cut
+from ebz.codec.polygons import Cut
 from ebz.codec.scene import in_part
 from ebz.codec.scenes import EncodedScene
 

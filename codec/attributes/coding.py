@@ -83,7 +83,7 @@ def encode_bundle(
     bundle: Bundle, items: Items, precision: AttributePrecision = EXACT, *, fast: bool = False
 ) -> EncodedArray:
     """The shortest of the streams that suit the values; fast: of those that take little time."""
-    values = bundle.values
+    values = items.arranged(bundle.values)
     array = EncodedArray(bundle.names, values.dtype.newbyteorder("="), values.shape[1:], b"")
     if not values.size:
         return array
@@ -111,7 +111,7 @@ def decode_array(array: EncodedArray, items: Items) -> npt.NDArray[Any]:
         values = specials.values(integers, array.plan, array.dtype)
         if values.size != items.n * n_values:
             raise CorruptError("entries of another number of components")
-    return values.reshape(shape)
+    return items.rearranged(values.reshape(shape))
 
 
 def _plans(

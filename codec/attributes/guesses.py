@@ -1,7 +1,6 @@
 """Normals of the surface: what entries that are directions are expected to be.
 
-Reference: N. Max, "Weights for computing vertex normals from facet normals", 1999, lists the means.
-Only + - * / and square roots of doubles in a fixed order, so that every machine has the same.
+codec/kernels/attributes/normals.hpp makes them.
 """
 
 from typing import Any
@@ -19,8 +18,6 @@ WEIGHTS = (Guess.NONE, Guess.AREA, Guess.ANGLE)
 CONVINCING = 0.3
 # Closer to their entries in the middle, guesses do not suffer from positions that were rounded.
 LEAST_ERROR = 1e-5
-# Halvings before the series of the arc tangent: its argument is below 0.2 then.
-HALVINGS, TERMS = 3, 12
 
 
 @np.errstate(all="ignore")
@@ -60,45 +57,8 @@ def _scale(plan: Plan) -> float:
     return plan.total if is_integer else 1.0
 
 
-@np.errstate(all="ignore")
 def _normals(guess: Guess, items: Items) -> Vectors:
     """(n, 3), zeros where there is no direction."""
-    faces = items.face_products
-    if Guess.AREA not in guess:
-        faces = _unit(faces)
-    if not items.is_by_corner:
-        return faces
-    by_corner = np.repeat(faces, 3, axis=0)
-    if Guess.ANGLE in guess:
-        by_corner *= _angles(items.corner_points)[:, None]
-    by_corner = np.where(np.isfinite(by_corner), by_corner, 0.0)
-    columns = [np.bincount(items.item, by_corner[:, d], items.n) for d in range(3)]
-    sums = np.stack(columns, axis=1).astype(np.float64)
-    return sums if Guess.SUM in guess else _unit(sums)
-
-
-def _unit(vectors: Vectors) -> Vectors:
-    x, y, z = vectors.T
-    length = np.sqrt(x * x + y * y + z * z)
-    usable = np.isfinite(length) & (length > 0)
-    return np.where(usable[:, None], vectors / np.where(usable, length, 1.0)[:, None], 0.0)
-
-
-def _angles(corners: Vectors) -> Vectors:
-    """The angle at each corner of triangles, (3m, 3)."""
-    by_face = corners.reshape(-1, 3, 3)
-    u = (np.roll(by_face, -1, axis=1) - by_face).reshape(-1, 3)
-    v = (np.roll(by_face, 1, axis=1) - by_face).reshape(-1, 3)
-    u, v = _unit(u), _unit(v)
-    x, y, z = np.cross(u, v).T
-    sine = np.sqrt(x * x + y * y + z * z)
-    cosine = u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1] + u[:, 2] * v[:, 2]
-    # The tangent of half the angle; opposite directions make almost half a turn.
-    half = sine / np.maximum(1 + cosine, 1e-12)
-    for _ in range(HALVINGS):
-        half = half / (1 + np.sqrt(1 + half * half))
-    square, arc = half * half, np.zeros_like(half)
-    for term in reversed(range(TERMS)):
-        arc = 1 / (2 * term + 1) - square * arc
-    angles: Vectors = 2 ** (HALVINGS + 1) * half * arc
-    return angles
+    return items.normals(
+        by_area=Guess.AREA in guess, by_angle=Guess.ANGLE in guess, as_sums=Guess.SUM in guess
+    )

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.connectivity import Int32s
-from ebz.codec.polygons import PolygonCorners
+from ebz.codec import _kernels
+from ebz.codec.connectivity import Int32s, Surface
+from ebz.codec.polygons import PolygonCorners, Triangles
 
 Floats = npt.NDArray[np.float64]
 NOTHING = np.zeros(0, np.int32)
@@ -19,17 +20,30 @@ NOWHERE = np.zeros((0, 3))
 class Sites:
     """The decoded surface that all attributes share, in output order.
 
-    opposite, vertex: (3t,) the half-edge across, and the vertex of each corner of the triangles.
+    vertex: (3t,) that of each corner of the surface's triangles.
     vertices: (n, 3) float32 or float64, as decoded.  site: (n,) that of each vertex: those of one
     site have the same coordinates; None where each has its own.
-    polygons: None where triangles are the faces.
     """
 
-    opposite: Int32s
+    surface: Surface
     vertex: Int32s
     vertices: npt.NDArray[Any]
     site: npt.NDArray[Any] | None
-    polygons: PolygonCorners | None = None
+
+    @property
+    def opposite(self) -> Int32s:
+        """(3t,) the half-edge across each corner of the surface's triangles."""
+        return self.surface.opposite
+
+    @property
+    def polygons(self) -> PolygonCorners | None:
+        """None where triangles are the faces."""
+        return self.surface.polygons
+
+    @property
+    def triangles(self) -> Triangles:
+        """Along which values are predicted."""
+        return self.surface.triangles
 
     @property
     def n_vertices(self) -> int:
@@ -44,52 +58,45 @@ class Sites:
         return values if self.polygons is None else values[self.polygons.corner]
 
     @cached_property
+    def face_offsets(self) -> Int32s:
+        """(m + 1,) where the corners of each face begin; nothing where faces are triangles."""
+        return NOTHING if self.polygons is None else self.polygons.offsets.astype(np.int32)
+
+    @cached_property
     def by_vertex(self) -> "Items":
         """A vertex each."""
-        return Items(self.n_vertices, self.opposite, self.vertex, self, np.arange(self.n_vertices))
+        return self._by_corner(self.vertex, np.arange(self.n_vertices))
 
     @cached_property
     def by_face(self) -> "Items":
         """A face each."""
         if self.polygons is None:
             return Items(self.n_faces, self.opposite, sites=self)
-        offsets = self.polygons.offsets.astype(np.int32)
-        return Items(self.n_faces, self.polygons.across(self.opposite), sites=self, offsets=offsets)
+        across = self.polygons.across(self.opposite)
+        return Items(self.n_faces, across, sites=self, offsets=self.face_offsets)
 
     def by_wedge(self, wedge: Int32s, n_wedges: int) -> "Items":
         """The corners of one wedge each: those at a vertex that have the same value."""
         vertex = np.zeros(n_wedges, np.int32)
         vertex[wedge] = self.vertex
-        return Items(n_wedges, self.opposite, wedge, self, vertex)
+        return self._by_corner(wedge, vertex)
+
+    def _by_corner(self, item: Int32s, at: npt.NDArray[Any]) -> "Items":
+        """item: (3t,) of each corner of the surface's triangles.  at: the vertex of each item."""
+        n, opposite = len(at), self.triangles.opposite
+        along, order = self.triangles.numbered(item, n)
+        if order is None:
+            return Items(n, opposite, along, self, at, corners=item)
+        number = np.empty(n, np.int32)
+        number[order] = np.arange(n, dtype=np.int32)
+        corners = number[self.of_faces(item)]
+        return Items(n, opposite, along, self, at[order], corners=corners, order=order)
 
     @cached_property
     def points(self) -> Floats:
         """(n, 3) the coordinates of the vertices."""
         with np.errstate(invalid="ignore"):
             return self.vertices.astype(np.float64)
-
-    @cached_property
-    def corner_points(self) -> Floats:
-        """(3t, 3) where the corners of the triangles are."""
-        return self.points[self.vertex]
-
-    @cached_property
-    def face_products(self) -> Floats:
-        """(t, 3) the products of edges: normals of the triangles, as long as twice the area."""
-        a, b, c = (self.corner_points[i::3] for i in range(3))
-        with np.errstate(all="ignore"):
-            return np.cross(b - a, c - a)
-
-    @cached_property
-    def polygon_products(self) -> Floats:
-        """(m, 3) of each face the sum over its triangles."""
-        if self.polygons is None:
-            return self.face_products
-        sizes = np.diff(self.polygons.offsets)
-        n_triangles = np.where(sizes > 0, np.maximum(sizes - 2, 1), 0)
-        face = np.repeat(np.arange(len(sizes)), n_triangles)
-        columns = (np.bincount(face, column, len(sizes)) for column in self.face_products.T)
-        return np.stack(list(columns), axis=1)
 
 
 @dataclass(frozen=True)
@@ -99,6 +106,8 @@ class Items:
     opposite, item: (3m,) the half-edge across and the entry of each corner; without item, entries
     are those of the faces; without both they are rows.  at: (n,) the vertex of each entry.
     offsets: (n + 1,) where the half-edges of each face begin; nothing where faces are triangles.
+    corners: (k,) the entry of each corner of the faces; nothing where entries are no corners.
+    order: (n,) the number that each entry has elsewhere; None where it is the same.
     """
 
     n: int
@@ -107,6 +116,20 @@ class Items:
     sites: Sites | None = None
     at: npt.NDArray[Any] = field(default_factory=lambda: NOTHING)
     offsets: Int32s = field(default_factory=lambda: NOTHING)
+    corners: Int32s = field(default_factory=lambda: NOTHING)
+    order: Int32s | None = None
+
+    def arranged(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """(n, ...) values as entries are ordered here."""
+        return values if self.order is None else values[self.order]
+
+    def rearranged(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """(n, ...) values as they are elsewhere."""
+        if self.order is None:
+            return values
+        placed = np.empty_like(values)
+        placed[self.order] = values
+        return placed
 
     @property
     def has_surface(self) -> bool:
@@ -122,17 +145,13 @@ class Items:
         """(n, 3) where entries are, nothing where they are nowhere."""
         return NOWHERE if self.sites is None else self.sites.points[self.at]
 
-    @property
-    def corner_points(self) -> Floats:
-        """(3m, 3) where the corners of the surface are."""
-        return NOWHERE if self.sites is None else self.sites.corner_points
-
-    @property
-    def face_products(self) -> Floats:
-        """Normals as long as twice the area: of triangles, or of the faces that entries are of."""
+    def normals(self, *, by_area: bool, by_angle: bool, as_sums: bool) -> Floats:
+        """(n, 3) normals of the faces, or means of those around; nothing on no surface."""
         if self.sites is None:
             return NOWHERE
-        return self.sites.face_products if self.is_by_corner else self.sites.polygon_products
+        vertex = self.sites.of_faces(self.sites.vertex)
+        of = (self.sites.points.reshape(-1), vertex, self.sites.face_offsets, self.corners, self.n)
+        return _kernels.normals(*of, by_area, by_angle, as_sums).reshape(-1, 3)
 
     @property
     def site(self) -> Int32s:

@@ -15,7 +15,7 @@ from ebz.codec.fitting import Precision
 from ebz.codec.levels import word_effort
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.adaptive import Effort
-from ebz.codec.positions import Cut
+from ebz.codec.polygons import Cut
 from ebz.codec.sample import random_triangulation
 from ebz.formats.polygons import fanned
 from tests import polygons
@@ -228,6 +228,24 @@ def test_attributes_of_faces_follow_what_is_across_edges(level):
             mesh = mesh_of(faces_of(grid), grid.vertices, face_attributes=attributes)
             sizes.append(ebz.stats(ebz.compress(mesh, level=level)).attribute_bytes)
         assert sizes[0] < 0.35 * sizes[1], name
+
+
+@pytest.mark.parametrize("level", [1, 6])
+def test_attributes_of_quads_cost_less_than_those_of_their_triangles(level):
+    grid = quad_grid(40, 50)
+    x, y, z = grid.vertices.T.astype(np.float64)
+    uv = np.round(np.stack([x + z, y * y / 50 + z], axis=1) / 60, 5).astype(np.float32)
+    normals = np.stack([-np.gradient(z.reshape(41, 51))[i].reshape(-1) for i in (1, 0)], axis=1)
+    normals = np.concatenate([normals, np.ones((len(z), 1))], axis=1)
+    normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
+    for values in (uv, normals.astype(np.float32)):
+        at_corners = {"a": values[grid.corners]}
+        mesh = mesh_of(faces_of(grid), grid.vertices, corner_attributes=at_corners)
+        options = {"level": level, "attribute_bits": {"a": 10}}
+        sizes = [
+            ebz.stats(ebz.compress(m, **options)).attribute_bytes for m in (mesh, fanned(mesh))
+        ]
+        assert sizes[0] < sizes[1]
 
 
 def test_order_of_polygons_is_within_the_uniform_bound():

@@ -1,5 +1,6 @@
 // Rows of integers along what they belong to.
 #include "../attributes/attributes.hpp"
+#include "../attributes/normals.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
 
@@ -42,6 +43,14 @@ Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t
     }));
 }
 
+Array<double> normals(const Input<double>& points, const Input<int32_t>& vertex, const Input<int32_t>& offsets,
+                      const Input<int32_t>& item, int32_t n, bool by_area, bool by_angle, bool as_sums) {
+    return to_numpy(without_gil([&] {
+        return ebz::attributes::normals({view(points), view(vertex), view(offsets), view(item), n},
+                                        {by_area, by_angle, as_sums});
+    }));
+}
+
 }  // namespace
 
 void bind_attributes(nb::module_& m) {
@@ -51,6 +60,8 @@ void bind_attributes(nb::module_& m) {
     m.def("decode_attribute", &decode_attribute, "data"_a, "opposite"_a, "item"_a, "offsets"_a, "n"_a, "n_components"_a,
           "points"_a, "site"_a, "guess"_a, "method"_a, "space"_a, "relation"_a, "total"_a, "heights"_a, "by_area"_a,
           "The rows, flattened.");
+    m.def("normals", &normals, "points"_a, "vertex"_a, "offsets"_a, "item"_a, "n"_a, "by_area"_a, "by_angle"_a,
+          "as_sums"_a, "Normals of n items of corners, or of n faces, flattened.");
 }
 
 }  // namespace ebz::binding
