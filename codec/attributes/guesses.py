@@ -29,7 +29,7 @@ def best(plan: Plan, values: npt.NDArray[Any], items: Items) -> Guess:
     wide = np.nan_to_num(values.astype(np.float64), posinf=0, neginf=0) / _scale(plan)
     errors = {Guess.NONE: np.inf if is_direction else CONVINCING * np.abs(wide).mean()}
     offs: dict[Guess, Vectors] = {}
-    for weights in WEIGHTS if items.is_by_corner else WEIGHTS[:1]:
+    for weights in _weights(items):
         for length in (Guess.NONE,) if is_direction else (Guess.NONE, Guess.SUM):
             guess = Guess.NORMALS | weights | length
             normals = _normals(guess, items)
@@ -57,8 +57,17 @@ def _scale(plan: Plan) -> float:
     return plan.total if is_integer else 1.0
 
 
+def _weights(items: Items) -> list[Guess]:
+    if not items.is_by_corner:
+        return [Guess.NONE]
+    return [*WEIGHTS, *(w | Guess.CORNERS for w in WEIGHTS if items.is_of_polygons)]
+
+
 def _normals(guess: Guess, items: Items) -> Vectors:
     """(n, 3), zeros where there is no direction."""
     return items.normals(
-        by_area=Guess.AREA in guess, by_angle=Guess.ANGLE in guess, as_sums=Guess.SUM in guess
+        by_area=Guess.AREA in guess,
+        by_angle=Guess.ANGLE in guess,
+        as_sums=Guess.SUM in guess,
+        by_corner=Guess.CORNERS in guess,
     )

@@ -145,13 +145,18 @@ class Items:
         """(n, 3) where entries are, nothing where they are nowhere."""
         return NOWHERE if self.sites is None else self.sites.points[self.at]
 
-    def normals(self, *, by_area: bool, by_angle: bool, as_sums: bool) -> Floats:
+    @property
+    def is_of_polygons(self) -> bool:
+        """Whether not all faces of the surface are triangles."""
+        return self.sites is not None and self.sites.polygons is not None
+
+    def normals(self, *, by_area: bool, by_angle: bool, as_sums: bool, by_corner: bool) -> Floats:
         """(n, 3) normals of the faces, or means of those around; nothing on no surface."""
         if self.sites is None:
             return NOWHERE
         vertex = self.sites.of_faces(self.sites.vertex)
         of = (self.sites.points.reshape(-1), vertex, self.sites.face_offsets, self.corners, self.n)
-        return _kernels.normals(*of, by_area, by_angle, as_sums).reshape(-1, 3)
+        return _kernels.normals(*of, by_area, by_angle, as_sums, by_corner).reshape(-1, 3)
 
     @property
     def site(self) -> Int32s:

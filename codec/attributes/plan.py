@@ -31,6 +31,7 @@ class Guess(enum.IntFlag, boundary=enum.STRICT):
 
     INVERTED: of the other side.  SUM: with the length that sums with such weights have.
     HEIGHTS: corrected by how far vertices seem to lie above or below where they were.
+    CORNERS: not of polygons, but at each of their corners of the edges there.
     """
 
     NONE = 0
@@ -40,6 +41,7 @@ class Guess(enum.IntFlag, boundary=enum.STRICT):
     INVERTED = 8
     SUM = 16
     HEIGHTS = 32
+    CORNERS = 64
 
 
 @dataclass(frozen=True)

@@ -74,27 +74,32 @@ private:
             result = c == begin + 2 ? product : sum(result, product);
             edge = next;
         }
-        return weights_.by_area ? result : direction(result);
+        return weighted(result);
     }
+
+    Vector3 weighted(const Vector3& product) const { return weights_.by_area ? product : direction(product); }
 
     void set(int32_t i, const Vector3& v) { std::copy(v.begin(), v.end(), sums_.begin() + static_cast<ptrdiff_t>(at(i))); }
 
     void add(int32_t f, const Vector3& normal) {
         const int32_t begin = first(f), end = first(f + 1);
         for (int32_t c = begin; c < end; ++c) {
-            const double weight = weights_.by_angle ? angle_at(c, begin, end) : 1.0;
+            const auto [to_after, to_before] = edges_at(c, begin, end);
+            const double weight = weights_.by_angle ? angle(direction(to_after), direction(to_before)) : 1.0;
+            const Vector3 here = weights_.by_corner ? weighted(cross(to_after, to_before)) : normal;
             const size_t i = at(corners_.item[static_cast<size_t>(c)]);
             for (size_t d = 0; d < 3; ++d) {
-                const double x = normal[d] * weight;
+                const double x = here[d] * weight;
                 sums_[i + d] += std::isfinite(x) ? x : 0.0;
             }
         }
     }
 
-    double angle_at(int32_t c, int32_t begin, int32_t end) const {
+    // To the next corner of the face, and to the previous.
+    std::array<Vector3, 2> edges_at(int32_t c, int32_t begin, int32_t end) const {
         const int32_t after = c + 1 < end ? c + 1 : begin, before = (c > begin ? c : end) - 1;
         const Vector3 o = point(c);
-        return angle(direction(difference(point(after), o)), direction(difference(point(before), o)));
+        return {difference(point(after), o), difference(point(before), o)};
     }
 
     const CornersInSpace& corners_;

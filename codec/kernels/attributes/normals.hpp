@@ -20,7 +20,8 @@ struct CornersInSpace {
 
 struct NormalWeights {
     bool by_area, by_angle;
-    bool as_sums;  // with the length that sums with such weights have, of items of corners
+    bool as_sums;    // with the length that sums with such weights have, of items of corners
+    bool by_corner;  // of the edges at each corner, not of its face
 };
 
 // 3 for each item; zeros where there is no direction.

@@ -44,10 +44,10 @@ Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t
 }
 
 Array<double> normals(const Input<double>& points, const Input<int32_t>& vertex, const Input<int32_t>& offsets,
-                      const Input<int32_t>& item, int32_t n, bool by_area, bool by_angle, bool as_sums) {
+                      const Input<int32_t>& item, int32_t n, bool by_area, bool by_angle, bool as_sums, bool by_corner) {
     return to_numpy(without_gil([&] {
         return ebz::attributes::normals({view(points), view(vertex), view(offsets), view(item), n},
-                                        {by_area, by_angle, as_sums});
+                                        {by_area, by_angle, as_sums, by_corner});
     }));
 }
 
@@ -61,7 +61,7 @@ void bind_attributes(nb::module_& m) {
           "points"_a, "site"_a, "guess"_a, "method"_a, "space"_a, "relation"_a, "total"_a, "heights"_a, "by_area"_a,
           "The rows, flattened.");
     m.def("normals", &normals, "points"_a, "vertex"_a, "offsets"_a, "item"_a, "n"_a, "by_area"_a, "by_angle"_a,
-          "as_sums"_a, "Normals of n items of corners, or of n faces, flattened.");
+          "as_sums"_a, "by_corner"_a, "Normals of n items of corners, or of n faces, flattened.");
 }
 
 }  // namespace ebz::binding
