@@ -1,5 +1,6 @@
 """A digest of everything that a mesh holds, the same on every machine."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -37,13 +38,18 @@ def digest(mesh: Mesh) -> bytes:
     return bytes(state.digest())
 
 
+@cache
+def _little_endian(dtype: np.dtype[Any]) -> np.dtype[Any]:
+    return dtype.newbyteorder("<")
+
+
 def _add_all(state: Any, owner: str, attributes: Attributes) -> None:
     for name, values in attributes.items():
         _add(state, f"{owner} {name}", values)
 
 
 def _add(state: Any, name: str, values: npt.NDArray[Any]) -> None:
-    little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
+    little = np.ascontiguousarray(values, _little_endian(values.dtype))
     head = f"{name}\0{little.dtype.str}\0{values.shape}\0"
     state.update(head.encode("utf-8", "surrogatepass"))
     state.update(little)

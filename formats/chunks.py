@@ -74,7 +74,8 @@ def _read_one(data: memoryview, offset: int) -> Chunk:
         raise CorruptError(f"chunk at offset {offset}: its length is malformed") from None
     except IndexError:
         raise TruncatedError(f"the file ends at byte {len(data)}, within a chunk head") from None
-    start, end = offset + 1 + size, offset + 1 + size + length
+    start = offset + 1 + size
+    end = start + length
     if end + CRC_SIZE > len(data):
         missing = end + CRC_SIZE - len(data)
         name = kind.decode("latin-1")

@@ -70,9 +70,10 @@ std::array<double, 6> bounds(std::span<const Float> coordinates) {
 
 template <class Float>
 void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::span<int64_t> multiples) {
+    const Steps fixed = steps;  // in registers whatever is written
     for (size_t i = 0; i + 2 < coordinates.size(); i += 3) {
         for (size_t axis = 0; axis < 3; ++axis) {
-            const double x = (static_cast<double>(coordinates[i + axis]) - steps.origin[axis]) / steps.step;
+            const double x = (static_cast<double>(coordinates[i + axis]) - fixed.origin[axis]) / fixed.step;
             const bool inside = x >= -max_multiple && x <= max_multiple;
             multiples[i + axis] = static_cast<int64_t>(round_to_integer(inside ? x : 0));
         }
@@ -81,10 +82,11 @@ void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::s
 
 template <class Integer, class Float>
 void from_multiples(const Rows<Integer>& multiples, const Steps& steps, std::span<Float> coordinates) {
+    const Steps fixed = steps;  // in registers whatever is written
     const Integer* row = multiples.first;
     for (size_t i = 0; i < 3 * multiples.n; i += 3, row += multiples.stride) {
         for (size_t axis = 0; axis < 3; ++axis) {
-            const double x = steps.origin[axis] + static_cast<double>(row[axis]) * steps.step;
+            const double x = fixed.origin[axis] + static_cast<double>(row[axis]) * fixed.step;
             coordinates[i + axis] = static_cast<Float>(x);
         }
     }

@@ -176,7 +176,9 @@ Connectivity Reverse::numbered(const std::vector<Index>& firsts) {
     for (size_t v = 0; v < number.size(); ++v) all |= number[v] = number[same_as[v]];
     if (all < 0) throw Corrupt("the word joins components");
     for (Index& v : vertex_) v = number[v];
-    for (Index& h : opposite_) h = std::max(h, none);
+    // Closed components have no loop left.
+    if (firsts.size() > static_cast<size_t>(n_closed_))
+        for (Index& h : opposite_) h = std::max(h, none);
     return {std::move(opposite_), {std::move(vertex_), n}};
 }
 
