@@ -330,7 +330,7 @@ private:
             const unsigned before = turn == 0 ? 0 : 1 + (hits_ >> k & 1);
             x.value_context[k] = static_cast<uint8_t>(before * 8 + t.history[k]);
         }
-        if (recalled_ != nullptr) x.value_context[last] = static_cast<uint8_t>(23 + std::min<uint32_t>(recalled_->hits, 8));
+        if (recalled_ != nullptr) x.value_context[last] = static_cast<uint8_t>(23 + std::min<uint32_t>(recalled_->hits(), 8));
         x.turn = turn;
         x.expected_class = std::min(size_class(best_scale_), 56);
         x.level = static_cast<size_t>(std::min(size_class(best_scale_ * 2), static_cast<int>(Decision::n_levels) - 1));
@@ -365,7 +365,7 @@ private:
     TextureMap texture_;
     NormalGuess<S> guess_;
     Hinges hinges_;
-    positions::Recall recall_{14};
+    positions::Recall<int64_t> recall_{14};
     int32_t last_ = -1, before_last_ = -1;
 
     // The item under way.
@@ -386,7 +386,7 @@ private:
     Fit::Vector features_{};
     double norm_ = 1, guess_error_ = 0;
     uint32_t key_ = 0;
-    const positions::Recall::Entry* recalled_ = nullptr;
+    const positions::Recall<int64_t>::Entry* recalled_ = nullptr;
     bool is_mirrored_ = false;
     bool is_implied_ = false;
     double mean_ = 0, local_ = 1, unit_ = 1, spread_ = 1, disagreement_ = 0, best_scale_ = 1;

@@ -164,25 +164,27 @@ void Axes::set_keys(size_t turn) {
     for (size_t i = 0; i < n_recalls; ++i) recalls_[i].prefetch(keys_[i]);
 }
 
+// What is nearest among the coordinates with these lower bits.
+int64_t Axes::from_base(size_t d, uint32_t coordinate) const { return int64_t{static_cast<int32_t>(coordinate - low_bits(base(d)))}; }
+
 void Axes::set_recalled(size_t turn, Expectation& x) {
     const size_t d = p_->axes[turn];
     const auto context = static_cast<uint32_t>(16 * turn);
     for (size_t i = 0; i < n_recalls; ++i) {
-        const Recall::Entry* r = recalls_[i].find(keys_[i]);
-        if (r != nullptr) add_value(x, 4 + i, wrapping_difference(r->value, base(d)), r->hits + context);
+        const Coordinates::Entry* r = recalls_[i].find(keys_[i]);
+        if (r != nullptr) add_value(x, 4 + i, from_base(d, r->value), r->hits() + context);
         if (i == 0) along_axes_ = r;
     }
     if (along_axes_ == nullptr) return;
-    const int64_t mirrored = wrapping_difference(mirrors_[d].sum, along_axes_->value);
-    add_value(x, 7, wrapping_difference(mirrored, base(d)), mirrors_[d].hits + context);
+    add_value(x, 7, from_base(d, mirrors_[d].sum - along_axes_->value), mirrors_[d].hits + context);
 }
 
 // A value that was recalled as another on this axis may be its mirror image.
 void Axes::learn_mirror(size_t d) {
-    if (along_axes_ == nullptr || along_axes_->value == value(d)) return;
+    if (along_axes_ == nullptr || along_axes_->value == low_bits(value(d))) return;
     Mirror& mirror = mirrors_[d];
-    const int64_t sum = wrapping_sum(along_axes_->value, value(d));
-    mirror.hits = sum == mirror.sum ? std::min(mirror.hits + 1, Recall::max_hits) : 1;
+    const uint32_t sum = along_axes_->value + low_bits(value(d));
+    mirror.hits = sum == mirror.sum ? std::min(mirror.hits + 1, Coordinates::max_hits) : 1;
     mirror.sum = sum;
 }
 
@@ -208,7 +210,7 @@ void Axes::reveal(size_t turn, int64_t e) {
     value_[d] = wrapping_sum(base_[d], e);
     (turn == 0 ? first_residual_ : last_residual_) = e;
     learn_mirror(d);
-    for (size_t i = 0; i < n_recalls; ++i) recalls_[i].learn(keys_[i], value(d));
+    for (size_t i = 0; i < n_recalls; ++i) recalls_[i].learn(keys_[i], low_bits(value(d)));
     // The remaining axes, conditioned on this one.
     const auto at = static_cast<double>(value_[d]);
     const double off_plain = at - plain_mean_[d], off_refined = at - refined_mean_[d];

@@ -34,9 +34,9 @@ private:
         bool has_second;
     };
 
-    // Sums of a coordinate and its mirror image, by the latest pair.
+    // Sums of a coordinate and its mirror image, by the latest pair, modulo 2^32.
     struct Mirror {
-        int64_t sum = 0;
+        uint32_t sum = 0;
         uint32_t hits = 0;  // times in a row that the sum came again
     };
 
@@ -46,6 +46,7 @@ private:
     void set_values(size_t turn, Expectation& x);
     void set_keys(size_t turn);
     void set_recalled(size_t turn, Expectation& x);
+    int64_t from_base(size_t d, uint32_t coordinate) const;
     void learn_mirror(size_t d);
     void set_contexts(size_t turn, Expectation& x) const;
     uint32_t agreement(size_t turn, const Offset& at) const;
@@ -56,10 +57,11 @@ private:
     const Surroundings* s_ = nullptr;
     const Prediction* p_ = nullptr;
     const Twins* twin_ = nullptr;
-    std::array<Recall, n_recalls> recalls_{Recall(14), Recall(14), Recall(14)};
+    using Coordinates = Recall<uint32_t>;  // their lower bits
+    std::array<Coordinates, n_recalls> recalls_{Coordinates(14), Coordinates(14), Coordinates(14)};
     std::array<uint32_t, n_recalls> keys_{};
     std::array<Mirror, 3> mirrors_;  // by axis
-    const Recall::Entry* along_axes_ = nullptr;  // what the first recall found
+    const Coordinates::Entry* along_axes_ = nullptr;  // what the first recall found
 
     Point plain_mean_{}, refined_mean_{};  // shifted by what earlier axes revealed
     std::array<std::array<double, 3>, 3> covariance_{};

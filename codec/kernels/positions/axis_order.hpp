@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace ebz::positions {
@@ -24,31 +23,34 @@ struct AxisOrder {
     static std::array<size_t, 3> ending_with(size_t d) { return {d == 0 ? 1u : 0u, d == 2 ? 1u : 2u, d}; }
 };
 
-// How many points, at least, have the coordinates of one before on all axes but d.
+// How many points, about, have the coordinates of one before on all axes but d: hashes stand for coordinates.
 inline size_t n_repeats(std::span<const int64_t> values, size_t d) {
     const size_t n = values.size() / 3, i = d == 0 ? 1 : 0, j = d == 2 ? 1 : 2;
     const int n_bits = std::bit_width(n) + 1;  // twice as many entries as points, or more
-    std::vector<std::pair<int64_t, int64_t>> latest(size_t{1} << n_bits, {INT64_MIN, 0});
+    std::vector<uint64_t> latest(size_t{1} << n_bits, 0);
     size_t n_repeated = 0;
     for (size_t v = 0; v < n; ++v) {
-        const std::pair<int64_t, int64_t> at = {values[3 * v + i], values[3 * v + j]};
-        const uint64_t key = (static_cast<uint64_t>(at.first) * 0x9E3779B97F4A7C15u ^ static_cast<uint64_t>(at.second)) * 0xC2B2AE3D27D4EB4Fu;
-        auto& entry = latest[key >> (64 - n_bits)];
-        n_repeated += entry == at ? 1 : 0;
-        entry = at;
+        const uint64_t mixed = static_cast<uint64_t>(values[3 * v + i]) * 0x9E3779B97F4A7C15u ^ static_cast<uint64_t>(values[3 * v + j]);
+        const uint64_t key = (mixed * 0xC2B2AE3D27D4EB4Fu) | 1;
+        uint64_t& entry = latest[key >> (64 - n_bits)];
+        n_repeated += entry == key ? 1 : 0;
+        entry = key;
     }
     return n_repeated;
 }
 
-// The orders that may give the shortest stream: that of one point in 16 is repeated is hardly chance.
+// The orders that may give the shortest stream.  That the coordinates of one point in 12 come again may be chance, those of
+// one in 4 are not.
 inline std::vector<AxisOrder> axis_orders(std::span<const int64_t> values) {
     std::array<size_t, 3> repeats{};
     for (size_t d = 0; d < 3; ++d) repeats[d] = n_repeats(values, d);
     uint8_t last = 2;
     for (const uint8_t d : {uint8_t{1}, uint8_t{0}})
         if (repeats[d] > repeats[last]) last = d;
-    std::vector<AxisOrder> orders(1);
-    if (repeats[last] * 16 >= values.size() / 3) orders.push_back({last});
+    const size_t n = values.size() / 3, most = repeats[last];
+    std::vector<AxisOrder> orders;
+    if (most * 4 < n || n == 0) orders.push_back({});
+    if (most * 12 >= n && n > 0) orders.push_back({last});
     return orders;
 }
 

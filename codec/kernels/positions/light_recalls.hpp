@@ -29,7 +29,7 @@ public:
 
     // last: the axis that is coded last.
     LightRecalls(const Surface& mesh, size_t last, const LightSurveyor<Unsigned>& sites)
-        : sites_(sites), places_(static_cast<size_t>(mesh.n_vertices)), twins_(mesh, last) {}
+        : sites_(sites), first_(last == 0 ? 1 : 0), places_(static_cast<size_t>(mesh.n_vertices)), twins_(mesh, last) {}
 
     // s stays as it is until the vertex has been learnt.
     void start(const PredictedVertex& from, const Surroundings& s) {
@@ -37,6 +37,7 @@ public:
         neighbour_agrees_ = {};
         tip_agrees_ = {};
         n_known_ = 0;
+        for (size_t d = 0; d < 3; ++d) places_.prefetch(d, origins(d), d == first_);
         const std::array<Gate, 2> gates = {{{from.a, from.b, from.o}, {from.c, from.d, from.p}}};
         twins_.start(from.vertex, std::span(gates).first(from.two() ? 2 : 1), *this);
     }
@@ -55,10 +56,10 @@ public:
     void reveal(size_t d, int64_t e, Unsigned coordinate) {
         const auto value = int64_t{static_cast<Signed>(coordinate)};
         values_.learn(e);
-        places_.learn(d, value);
+        if (!is_told_) places_.learn(d, static_cast<uint32_t>(coordinate));
         twins_.reveal(d, value);
         if (n_known_ == known_.size()) return;
-        known_[n_known_++] = value;
+        known_[n_known_++] = static_cast<uint32_t>(coordinate);
         for (size_t i = 0; i < s_->n_kept_neighbours(); ++i) neighbour_agrees_[i] += s_->neighbour_at[i][d] == coordinate ? 1 : 0;
         for (size_t i = 0; i < s_->n_kept_tips(); ++i) tip_agrees_[i] += s_->tip_at[i][d] == coordinate ? 1 : 0;
     }
@@ -80,6 +81,8 @@ private:
         values_.clear();
         if (twins_.exists())
             values_.add(LightValues::twin, turn, agreement(twins_.n_agree()), twins_.strength(), wrapping_difference(twins_.value(d), value(x.base)));
+        is_told_ = twins_.is_strong() && twins_.n_agree() == turn;
+        if (is_told_) return;
         if (x.shift[d] > 0) values_.add(x.plain[d] ? LightValues::plain_base : LightValues::expected_base, turn, 0, exact, 0);
         int64_t best = residual(s_->neighbour_at[0]);
         size_t most = neighbour_agrees_[0];
@@ -95,9 +98,12 @@ private:
             const size_t tip = first_largest(s_->n_kept_tips());
             values_.add(LightValues::tip, turn, agreement(tip_agrees_[tip]), exact, residual(s_->tip_at[tip]));
         }
-        const std::array<int64_t, 2> origins = {value(s_->neighbour_at[0]), value(s_->neighbour_at[1])};
-        const std::array<int64_t, 2> known = {turn > 0 ? known_[0] : origins[0], turn > 1 ? known_[1] : 0};
-        places_.add_to(values_, d, turn, known, origins, value(x.base));
+        const std::array<uint32_t, 2> known = {turn > 0 ? known_[0] : origins(d)[0], turn > 1 ? known_[1] : 0};
+        places_.add_to(values_, d, turn, known, origins(d), static_cast<uint32_t>(x.base[d]));
+    }
+
+    std::array<uint32_t, 2> origins(size_t d) const {
+        return {static_cast<uint32_t>(s_->neighbour_at[0][d]), static_cast<uint32_t>(s_->neighbour_at[1][d])};
     }
 
     size_t first_largest(size_t n_tips) const {
@@ -108,13 +114,15 @@ private:
     size_t agreement(size_t n_agree) const { return n_known_ == 0 ? 0 : n_agree == 0 ? 1 : n_agree < n_known_ ? 2 : 3; }
 
     const LightSurveyor<Unsigned>& sites_;
+    size_t first_;  // axis
     const Surroundings* s_ = nullptr;
     LightValues values_;
     LightPlaces places_;
     Twins twins_;
     Agreements neighbour_agrees_{}, tip_agrees_{};
-    std::array<int64_t, 2> known_{};  // coordinates of the vertex
+    std::array<uint32_t, 2> known_{};  // coordinates of the vertex
     size_t n_known_ = 0;
+    bool is_told_ = false;  // by a twin, without further values
 };
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -1,21 +1,27 @@
 // What followed the last time the same circumstances were met: a match model of order one.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace ebz::positions {
 
+// Small values make small tables, which are fast.
+template <class Value>
 class Recall {
 public:
-    struct Entry {
-        int64_t value;
-        uint32_t key;
-        uint32_t hits;  // times in a row that the value came again, 0 if never met
-    };
     static constexpr uint32_t max_hits = 15;
 
+    struct Entry {
+        uint32_t key_and_hits = 0;  // the lower 28 bits of the key; times in a row that the value came again, 0 if never met
+        Value value = 0;
+
+        uint32_t hits() const { return key_and_hits & max_hits; }
+    };
+
+    // log2_entries >= 4: then the place tells the rest of the key.
     explicit Recall(int log2_entries) : shift_(32 - log2_entries), entries_(size_t{1} << log2_entries) {}
 
     void prefetch(uint32_t key) const { __builtin_prefetch(&entries_[key >> shift_], 1); }
@@ -23,13 +29,13 @@ public:
     // Null if these circumstances are new.
     const Entry* find(uint32_t key) const {
         const Entry& e = entries_[key >> shift_];
-        return e.hits != 0 && e.key == key ? &e : nullptr;
+        return e.hits() != 0 && (e.key_and_hits ^ key << 4) <= max_hits ? &e : nullptr;
     }
 
-    void learn(uint32_t key, int64_t value) {
+    void learn(uint32_t key, Value value) {
         Entry& e = entries_[key >> shift_];
-        const bool again = e.hits != 0 && e.key == key && e.value == value;
-        e = {value, key, again ? (e.hits < max_hits ? e.hits + 1 : max_hits) : 1};
+        const bool again = find(key) != nullptr && e.value == value;
+        e = {key << 4 | (again ? std::min(e.hits() + 1, max_hits) : 1), value};
     }
 
 private:

@@ -59,6 +59,7 @@ public:
 
     // 0 for a twin of which little is to be expected, at most 3.
     size_t strength() const { return strength_; }
+    bool is_strong() const { return exists() && strength_ == 3; }
     // Axes so far on which the value was right.
     size_t n_agree() const { return n_agree_; }
 
@@ -68,25 +69,36 @@ public:
     void learn(int32_t v, int32_t corner, const Position& position, const Position& a, const Position& b) {
         const bool right = exists() && n_agree_ >= 2;
         if (exists()) run_ = right ? run_ + 1 : 0;
-        const uint32_t shape = shape_of(position, a, b), place = place_of(position);
-        const Recall::Entry *alike = shapes_.find(shape), *aligned = places_.find(place);
-        int32_t twin = v;  // as on a plane of symmetry
-        if (right) twin = found_;
-        else if (alike != nullptr) twin = static_cast<int32_t>(alike->value);
-        else if (aligned != nullptr) twin = static_cast<int32_t>(aligned->value);
-        twin_[static_cast<size_t>(v)] = twin;
         corner_[static_cast<size_t>(v)] = corner;
-        shapes_.learn(shape, v);
-        places_.learn(place, v);
+        if (latest_.vertex >= 0) pair(latest_);
+        latest_ = {v, shape_of(position, a, b), place_of(position)};
+        if (right) twin_[static_cast<size_t>(v)] = found_;
+        shapes_.prefetch(latest_.shape);
+        places_.prefetch(latest_.place);
     }
 
 private:
     static constexpr int most_turns = 12;
 
+    // A vertex whose twin may still have to come from memory, -1 for none.
+    struct Unpaired {
+        int32_t vertex;
+        uint32_t shape, place;
+    };
+
     struct Counterpart {
         int32_t vertex;  // -1 if there is none
         bool flipped;    // in orientation
     };
+
+    // Without a twin that was right or is recalled a vertex is its own, as on a plane of symmetry.
+    void pair(const Unpaired& u) {
+        const Recall<int32_t>::Entry *alike = shapes_.find(u.shape), *aligned = places_.find(u.place);
+        int32_t& twin = twin_[static_cast<size_t>(u.vertex)];
+        if (twin < 0) twin = alike != nullptr ? alike->value : aligned != nullptr ? aligned->value : u.vertex;
+        shapes_.learn(u.shape, u.vertex);
+        places_.learn(u.place, u.vertex);
+    }
 
     int32_t of(int32_t v) const { return twin_[static_cast<size_t>(v)]; }
 
@@ -150,7 +162,8 @@ private:
     const int32_t *opposite_, *vertex_;
     size_t last_;
     std::vector<int32_t> twin_, corner_;
-    Recall places_, shapes_;
+    Recall<int32_t> places_, shapes_;
+    Unpaired latest_{-1, 0, 0};
     size_t run_ = 0;  // sites in a row whose twin was right
 
     // Of the vertex under way.
