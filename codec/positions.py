@@ -31,8 +31,6 @@ class Method(enum.IntEnum):
 FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 
 
-# Where light takes fewer bits a point, values repeat so much that these may be shorter.
-BELOW_LIGHT = {Method.MEDIUM: 7, Method.STRONG: 1}
 # What is tried too for so few floats that it takes no time to speak of.
 NEXT = {Method.FAST: Method.LIGHT, Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
 MAX_FEW = 1024
@@ -87,12 +85,10 @@ def encode(
     stream, coding = min(threads.run(by, candidates), key=_length)
     if not stream:  # more than the 32 bits of the fast and medium methods
         return encode(surface, points, n_along, dtype, Method.LIGHT)
-    if coding.method != Method.LIGHT:
+    # Where light takes less than a bit a point, as on regular grids, strong takes far less.
+    if coding.method != Method.LIGHT or 8 * len(stream) >= n_along:
         return stream, coding
-    n_bits = 8 * len(stream) / max(n_along, 1)
-    few = [other for other, few_bits in BELOW_LIGHT.items() if n_bits < few_bits]
-    others = [other for other in map(by, _cuts(surface, few)) if other[0]]
-    return min([(stream, coding), *others], key=_length)
+    return min([(stream, coding), *map(by, _cuts(surface, [Method.STRONG]))], key=_length)
 
 
 def _length(stream: tuple[bytes, Coding]) -> int:
