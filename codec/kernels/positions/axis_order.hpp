@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "surface.hpp"
+#include "wrapping.hpp"
+
 namespace ebz::positions {
 
 // By the normal, the axis nearest to it last, which the tangent plane then tells of; or always the same axis last,
@@ -23,35 +26,66 @@ struct AxisOrder {
     static std::array<size_t, 3> ending_with(size_t d) { return {d == 0 ? 1u : 0u, d == 2 ? 1u : 2u, d}; }
 };
 
-// How many points, about, have the coordinates of one before on all axes but d: hashes stand for coordinates.
-inline size_t n_repeats(std::span<const int64_t> values, size_t d) {
-    const size_t n = values.size() / 3, i = d == 0 ? 1 : 0, j = d == 2 ? 1 : 2;
-    const int n_bits = std::bit_width(n) + 1;  // twice as many entries as points, or more
-    std::vector<uint64_t> latest(size_t{1} << n_bits, 0);
-    size_t n_repeated = 0;
-    for (size_t v = 0; v < n; ++v) {
-        const uint64_t mixed = static_cast<uint64_t>(values[3 * v + i]) * 0x9E3779B97F4A7C15u ^ static_cast<uint64_t>(values[3 * v + j]);
-        const uint64_t key = (mixed * 0xC2B2AE3D27D4EB4Fu) | 1;
-        uint64_t& entry = latest[key >> (64 - n_bits)];
-        n_repeated += entry == key ? 1 : 0;
+// Counts what comes again; hashes stand for what is counted.
+class Repeats {
+public:
+    // n: how many there will be.
+    explicit Repeats(size_t n) : shift_(63 - std::bit_width(n)), latest_(size_t{1} << (64 - shift_), 0) {}
+
+    void add(uint64_t hash) {
+        const uint64_t key = (hash * 0xC2B2AE3D27D4EB4Fu) | 1;
+        uint64_t& entry = latest_[key >> shift_];
+        n_ += entry == key ? 1 : 0;
         entry = key;
     }
-    return n_repeated;
+
+    size_t n() const { return n_; }
+
+private:
+    int shift_;  // so that there are twice as many entries, or more
+    std::vector<uint64_t> latest_;
+    size_t n_ = 0;
+};
+
+// How many points have the coordinates of one before on all axes but d.
+inline size_t n_repeated_places(std::span<const int64_t> values, size_t d) {
+    const size_t n = values.size() / 3, i = d == 0 ? 1 : 0, j = d == 2 ? 1 : 2;
+    Repeats repeats(n);
+    for (size_t v = 0; v < n; ++v)
+        repeats.add(static_cast<uint64_t>(values[3 * v + i]) * 0x9E3779B97F4A7C15u ^ static_cast<uint64_t>(values[3 * v + j]));
+    return repeats.n();
 }
 
-// The orders that may give the shortest stream.  That the coordinates of one point in 12 come again may be chance, those of
-// one in 4 are not.
-inline std::vector<AxisOrder> axis_orders(std::span<const int64_t> values) {
+// How many triangles are those of before, moved or mirrored.
+inline size_t n_repeated_shapes(const Surface& mesh, std::span<const int64_t> values) {
+    Repeats repeats(mesh.vertex.size() / 3);
+    for (size_t c = 0; c + 2 < mesh.vertex.size(); c += 3) {
+        uint64_t hash = 0;
+        for (size_t k = 0; k < 3; ++k) {
+            const size_t a = 3 * static_cast<size_t>(mesh.vertex[c + k]), b = 3 * static_cast<size_t>(mesh.vertex[c + (k + 1) % 3]);
+            uint64_t edge = 0;
+            for (size_t d = 0; d < 3; ++d) edge = (edge ^ magnitude(wrapping_difference(values[a + d], values[b + d]))) * 0x9E3779B97F4A7C15u;
+            hash += edge ^ edge >> 32;  // whichever edge is the first
+        }
+        repeats.add(hash);
+    }
+    return repeats.n();
+}
+
+// The orders that may give the shortest stream.  That one place in 12 or two shapes in 5 come again may be chance, that one
+// place in 4 does is none.
+inline std::vector<AxisOrder> axis_orders(const Surface& mesh, std::span<const int64_t> values) {
+    const size_t n = values.size() / 3, n_faces = mesh.vertex.size() / 3;
+    if (n == 0) return {AxisOrder{}};
     std::array<size_t, 3> repeats{};
-    for (size_t d = 0; d < 3; ++d) repeats[d] = n_repeats(values, d);
+    for (size_t d = 0; d < 3; ++d) repeats[d] = n_repeated_places(values, d);
     uint8_t last = 2;
     for (const uint8_t d : {uint8_t{1}, uint8_t{0}})
         if (repeats[d] > repeats[last]) last = d;
-    const size_t n = values.size() / 3, most = repeats[last];
-    std::vector<AxisOrder> orders;
-    if (most * 4 < n || n == 0) orders.push_back({});
-    if (most * 12 >= n && n > 0) orders.push_back({last});
-    return orders;
+    const size_t most = repeats[last];
+    if (most * 4 >= n) return {AxisOrder{last}};
+    const bool is_alike = most * 12 >= n || n_repeated_shapes(mesh, values) * 5 >= 2 * n_faces;
+    return is_alike ? std::vector{AxisOrder{}, AxisOrder{last}} : std::vector{AxisOrder{}};
 }
 
 }  // namespace ebz::positions

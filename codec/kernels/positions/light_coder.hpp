@@ -168,7 +168,7 @@ std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> 
     const auto fits = [](int64_t x) { return x == static_cast<int32_t>(x); };
     const bool narrow = std::all_of(values.begin(), values.end(), fits);
     std::vector<uint8_t> shortest;
-    for (const AxisOrder axes : axis_orders(values)) {
+    for (const AxisOrder axes : axis_orders(mesh, values)) {
         std::vector<uint8_t> bytes = narrow ? encode_light<uint32_t>(mesh, values, axes) : encode_light<uint64_t>(mesh, values, axes);
         if (shortest.empty() || bytes.size() < shortest.size()) shortest = std::move(bytes);
     }

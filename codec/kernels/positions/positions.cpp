@@ -17,7 +17,7 @@ namespace {
 // The first byte is the order of axes.
 std::vector<uint8_t> encode_strong(const Surface& surface, std::span<const int64_t> values) {
     std::vector<uint8_t> shortest;
-    for (const AxisOrder order : axis_orders(values)) {
+    for (const AxisOrder order : axis_orders(surface, values)) {
         // The shared path writes to each vertex what it read from it.
         std::vector<int64_t> copy(values.begin(), values.end());
         RangeEncoder coder;
