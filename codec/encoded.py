@@ -10,6 +10,7 @@ import numpy as np
 from ebz.codec.attributes.plan import Plan
 from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
+from ebz.codec.listing import Listing
 from ebz.codec.order import OrderStreams
 from ebz.codec.positions import Coding
 
@@ -82,6 +83,7 @@ class Streams:
     gluing: bytes
     splits: bytes | None  # None: no position is shared
     positions: bytes
+    listing: Listing | None  # None: positions are not numbers in a list
     points: bytes | None  # None: vertices in no face are among the positions
     exception_rows: bytes
     exception_values: bytes

@@ -95,9 +95,7 @@ def encode(
     order = replace(order, vertices=arrangement.vertices)
     points = points.take(arrangement.sites)
     n_along = len(arrangement.sites) if free is None else surface.n_vertices
-    stream, coding_of_positions = positions.encode(
-        surface, points, n_along, stored.dtype, position_method(level)
-    )
+    coded = positions.encode(surface, points, n_along, stored.dtype, position_method(level))
     exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
     report("attributes", 3, N_STAGES)
     keep_rotation, fast = keeps_rotation(mesh.face_attributes), has_fast_attributes(level)
@@ -113,14 +111,15 @@ def encode(
         n_vertices=len(stored),
         n_exceptions=len(points.exceptions),
         lattice=points.lattice,
-        coding=coding_of_positions,
+        coding=coded.coding,
         model=word.model,
         streams=Streams(
             word=word.word,
             special_integers=word.special_integers,
             gluing=word.gluing,
             splits=arrangement.splits,
-            positions=stream if n_along else b"",
+            positions=coded.data if n_along else b"",
+            listing=coded.listing,
             points=free,
             exception_rows=_encode_rows(points.exceptions),
             exception_values=_encode_values(exact),
@@ -167,7 +166,9 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         split = welding.split(surface, streams.splits, n_vertices)
     report("positions", 1, N_STAGES)
     n_along = split.n_sites if streams.points is None else surface.n_vertices
-    integers = positions.decode(streams.positions, surface, n_along, encoded.coding)
+    coded = positions.Coded(streams.positions, encoded.coding, streams.listing)
+    with corrupt_at(encoded.place("positions")):
+        integers = positions.decode(coded, surface, n_along)
     with corrupt_at(encoded.place("points")):
         free = free_points.decode(streams.points, split.n_sites - n_along)
     if len(free):

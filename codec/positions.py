@@ -2,7 +2,7 @@
 
 import enum
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels, threads
 from ebz.codec.connectivity import Surface
-from ebz.codec.lattice import FloatLattice, Lattice, Points, SingleLattice
+from ebz.codec.lattice import FloatLattice, Integers, Lattice, Points, SingleLattice
+from ebz.codec.listing import Listing, listed
 from ebz.codec.polygons import Cut
 
 Int32s = npt.NDArray[np.int32]
@@ -42,10 +43,11 @@ MAX_TWICE = (2**31 - 1) // 6  # triangles of which half-edges of twice as many h
 
 @dataclass(frozen=True)
 class Coding:
-    """How the positions of a mesh are coded; cut: of polygons."""
+    """How the positions of a mesh are coded; cut: of polygons; is_listed: as numbers in a list."""
 
     method: Method
     cut: Cut = Cut.COMPLETING
+    is_listed: bool = False
 
 
 @dataclass(frozen=True)
@@ -67,38 +69,67 @@ class Along:
         return self.opposite, self.vertex, self.n_vertices
 
 
+@dataclass(frozen=True)
+class Coded:
+    """The stream, and the list of the integers of which it says which are where, if any."""
+
+    data: bytes
+    coding: Coding
+    listing: Listing | None = None
+
+    @property
+    def size(self) -> int:
+        """The bytes of both."""
+        return len(self.data) + (self.listing.size if self.listing else 0)
+
+
 def encode(
     surface: Surface, points: Points, n_along: int, dtype: np.dtype[Any], method: Method
-) -> tuple[bytes, Coding]:
+) -> Coded:
     """The shortest stream by the method, or by those that suit such points.
 
     n_along: how many points are coded, the first; those past the surface have no neighbours.
     """
     values = points.integers[:n_along]
+    coded = _shortest(surface, values, _candidates(points, dtype, method))
+    found = listed(values)
+    if found is None:
+        return coded
+    listing, which = found
+    other = _shortest(surface, which, _with_next(method, n_along))
+    coding = replace(other.coding, is_listed=True)
+    return min(coded, Coded(other.data, coding, listing), key=_size)
 
-    def by(chosen: Coding) -> tuple[bytes, Coding]:
-        along = _along(surface, n_along, chosen.cut)
+
+def _shortest(surface: Surface, values: Integers, methods: Sequence[Method]) -> Coded:
+    def by(chosen: Coding) -> Coded:
+        along = _along(surface, len(values), chosen.cut)
         placed = values if along.order is None else values[along.order]
-        return _kernels.encode_positions(*along.arrays, placed.reshape(-1), chosen.method), chosen
+        flat = placed.reshape(-1)
+        return Coded(_kernels.encode_positions(*along.arrays, flat, chosen.method), chosen)
 
-    candidates = _cuts(surface, _candidates(points, dtype, method))
-    stream, coding = min(threads.run(by, candidates), key=_length)
-    if not stream:  # more than the 32 bits of the fast and medium methods
-        return encode(surface, points, n_along, dtype, Method.LIGHT)
+    best = min(threads.run(by, _cuts(surface, methods)), key=_size)
+    if not best.data:  # more than the 32 bits of the fast and medium methods
+        return _shortest(surface, values, [Method.LIGHT])
     # Where light takes less than a bit a point, as on regular grids, strong takes far less.
-    if coding.method != Method.LIGHT or 8 * len(stream) >= n_along:
-        return stream, coding
-    return min([(stream, coding), *map(by, _cuts(surface, [Method.STRONG]))], key=_length)
+    if best.coding.method != Method.LIGHT or 8 * len(best.data) >= len(values):
+        return best
+    return min([best, *map(by, _cuts(surface, [Method.STRONG]))], key=_size)
 
 
-def _length(stream: tuple[bytes, Coding]) -> int:
-    return len(stream[0])
+def _size(coded: Coded) -> int:
+    return coded.size
 
 
-def decode(data: bytes, surface: Surface, n_vertices: int, coding: Coding) -> npt.NDArray[Any]:
-    """(n, 3) int32 or int64 coordinates; whatever the bytes are, some come back."""
-    along = _along(surface, n_vertices, coding.cut)
-    decoded = _decode(np.frombuffer(data, np.uint8), along, coding.method)
+def decode(coded: Coded, surface: Surface, n_vertices: int) -> npt.NDArray[Any]:
+    """(n, 3) int32 or int64 coordinates; raises CorruptError where one is not in the list.
+
+    Without a list some come back, whatever the bytes are.
+    """
+    along = _along(surface, n_vertices, coded.coding.cut)
+    decoded = _decode(np.frombuffer(coded.data, np.uint8), along, coded.coding.method)
+    if coded.listing is not None:
+        decoded = coded.listing.at(decoded)
     if along.order is None:
         return decoded
     values = np.empty(decoded.shape, decoded.dtype)
@@ -156,6 +187,9 @@ def _candidates(points: Points, dtype: np.dtype[Any], method: Method) -> Sequenc
         return [in_floats]
     in_integers = method in (Method.FAST, Method.MEDIUM)
     methods = [method] if in_integers else [in_floats, method]
-    if len(points.integers) <= MAX_FEW and method in NEXT:
-        methods.append(NEXT[method])
-    return methods
+    return methods + _with_next(method, len(points.integers))[1:]
+
+
+def _with_next(method: Method, n: int) -> list[Method]:
+    """Of n points, the method, and the next one where they are few."""
+    return [method, NEXT[method]] if n <= MAX_FEW and method in NEXT else [method]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, EncodedText, Streams
 from ebz.codec.errors import CorruptError, VersionError, corrupt_at
+from ebz.codec.listing import Listing
 from ebz.codec.models.load import AnyTable
 from ebz.codec.order import OrderStreams
 from ebz.formats import chunks, header, layout, records, tables
@@ -34,7 +35,7 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> list[bytes]:
         (layout.SPECIALS, streams.special_integers),
         (layout.GLUING, streams.gluing),
         (layout.SPLITS, streams.splits),
-        (layout.POSITIONS, streams.positions),
+        (layout.POSITIONS, _positions(streams)),
         (layout.POINTS, streams.points),
         (layout.EXCEPTIONS, _exceptions(streams) if encoded.n_exceptions else b""),
         (layout.VERTEX_ORDER, streams.order.vertices),
@@ -110,6 +111,7 @@ def _parse(
     _check_presence(head, found)
     payloads = {kind: chunk.payload for kind, chunk in found.items()}
     exception_rows, exception_values = _parse_exceptions(found.get(layout.EXCEPTIONS))
+    listing, positions = _parse_positions(found.get(layout.POSITIONS), head)
     return EncodedMesh(
         dtype=np.dtype(f"f{head.itemsize}"),
         counts=head.counts,
@@ -123,7 +125,8 @@ def _parse(
             special_integers=payloads.get(layout.SPECIALS, b""),
             gluing=payloads.get(layout.GLUING, b""),
             splits=payloads.get(layout.SPLITS),
-            positions=payloads.get(layout.POSITIONS, b""),
+            positions=positions,
+            listing=listing,
             points=payloads.get(layout.POINTS),
             exception_rows=exception_rows,
             exception_values=exception_values,
@@ -175,6 +178,30 @@ def _check_presence(head: Header, found: dict[bytes, Chunk]) -> None:
             raise CorruptError(f"{where}: it calls for a {name} chunk, which is missing")
         if kind in found and not is_needed:
             raise CorruptError(f"{found[kind]}: the header has no use for it")
+
+
+def _positions(streams: Streams) -> bytes:
+    """The list of coordinates before the stream, if there is one."""
+    if streams.listing is None:
+        return streams.positions
+    data = streams.listing.data
+    head = layout.varint(streams.listing.n) + layout.varint(len(data))
+    return head + data + streams.positions
+
+
+def _parse_positions(chunk: Chunk | None, head: header.Header) -> tuple[Listing | None, bytes]:
+    if chunk is None or not head.coding.is_listed:
+        return None, chunk.payload if chunk else b""
+    data = chunk.payload
+    try:
+        n, start = layout.read_varint(data)
+        length, size = layout.read_varint(data, start)
+    except (IndexError, ValueError) as error:
+        raise CorruptError(f"{chunk}: no list of coordinates: {error}") from None
+    end = start + size + length
+    if end > len(data):
+        raise CorruptError(f"{chunk}: {length} bytes for a list of coordinates, past its end")
+    return Listing(n, bytes(data[start + size : end])), bytes(data[end:])
 
 
 def _exceptions(streams: Streams) -> bytes:

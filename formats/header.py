@@ -34,7 +34,9 @@ MAX_COUNT = 2**63
 # Of faces: all are triangles, or of any size; else the size of all.
 TRIANGLES, MIXED = range(2)
 NO_SIZES = (2, 3)
-N_METHODS = 64  # the byte of the method is that, plus this for each further way to cut polygons
+# The byte of the method is that, plus 32 if positions are listed, plus 64 for each further way to
+# cut polygons.
+N_METHODS, LISTED = 64, 32
 DTYPE_SIZES = (4, 8)
 # In the order of their numbers.
 PARAMETERS = {
@@ -89,7 +91,7 @@ def write(encoded: EncodedMesh, model: int) -> bytes:
     size = _face_size(counts)
     polygons = astuple(counts.polygons) if counts.polygons and size == MIXED else ()
     kind = LATTICES.index(type(lattice))
-    numbers = bytes([model, encoded.coding.method + encoded.coding.cut * N_METHODS, kind])
+    numbers = bytes([model, _byte_of(encoded.coding), kind])
     parameters = _parameters(kind, itemsize).pack(*_flat(astuple(lattice)))
     sizes = [*map(layout.varint, integers), bytes([size]), *map(layout.varint, polygons)]
     return bytes([itemsize]) + b"".join(sizes) + numbers + parameters
@@ -209,13 +211,17 @@ def _polygons_of(size: int, n_triangles: int) -> PolygonCounts:
     return PolygonCounts(n_faces, 0, size * n_faces)
 
 
+def _byte_of(coding: Coding) -> int:
+    return coding.method + coding.is_listed * LISTED + coding.cut * N_METHODS
+
+
 def _coding(byte: int, itemsize: int, lattice: Lattice) -> Coding:
-    way, number = divmod(byte, N_METHODS)
+    way, number = divmod(byte & ~LISTED, N_METHODS)
     in_floats = FLOAT_METHODS[4 if isinstance(lattice, SingleLattice) else itemsize]
     if number in FLOAT_METHODS.values() and number != in_floats:
         raise CorruptError(f"positions of {itemsize} bytes by method {number}")
     try:
-        return Coding(Method(number), Cut(way))
+        return Coding(Method(number), Cut(way), bool(byte & LISTED))
     except ValueError:
         raise VersionError(f"header: unknown method {byte} of positions") from None
 

@@ -4,6 +4,7 @@ import math
 
 from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, EncodedText
 from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
+from ebz.codec.listing import Listing
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, state_bytes
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import TOTAL
@@ -69,13 +70,15 @@ def declared_size(encoded: EncodedMesh) -> int:
         n_coded = max(0, encoded.n_vertices - n_split)
         n_bytes = len(streams.positions) + len(streams.points or b"")
         _check("vertices", n_coded, 3 * CHEAPEST_DECISION, n_bytes)
+        listing = streams.listing or Listing(0, b"")
+        _check("listed coordinates", listing.n, CHEAPEST_BIT, listing.size)
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, len(streams.exception_rows))
     n_coded = counts.n_faces - (counts.polygons.n_empty if counts.polygons else 0)
     _check_order("face order", n_coded - 1, streams.order.faces, encoded)
     _check_order("rotations", n_coded, streams.order.rotations, encoded)
     with corrupt_at(encoded.place("metadata")):
         text_size = check_text(encoded.metadata)
-    n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions
+    n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions + listing.n
     size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
     size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
     size += _arrays_size(encoded.face_attributes, counts.n_faces)

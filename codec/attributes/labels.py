@@ -3,9 +3,8 @@
 import numpy as np
 
 from ebz.codec.attributes.plan import Plan
-from ebz.codec.errors import CorruptError
-from ebz.codec.integers import decode_columns, encode_columns, unzigzag, zigzag
 from ebz.codec.lattice import Integers
+from ebz.codec.listing import Listing, listing_of
 
 MAX_LABELS = 1 << 16
 # More labels than these, at least half of the integers in their range, are better coded as numbers.
@@ -20,14 +19,9 @@ def encode(integers: Integers) -> tuple[int, bytes, Integers] | None:
         return None
     if n_labels > MAX_DENSE and 2 * n_labels > int(found[-1]) - int(found[0]):
         return None
-    stream = encode_columns(zigzag(np.diff(found, prepend=0)))
-    return len(found), stream, which.reshape(integers.shape).astype(np.int64)
+    return len(found), listing_of(found).data, which.reshape(integers.shape).astype(np.int64)
 
 
 def decode(which: Integers, plan: Plan) -> Integers:
-    """The integers; raises CorruptError where there is no such label."""
-    (steps,) = decode_columns(plan.labels, plan.n_labels, 1)
-    if which.size and (which.min() < 0 or which.max() >= plan.n_labels):
-        raise CorruptError(f"a label beyond the {plan.n_labels} that there are")
-    labels: Integers = np.cumsum(unzigzag(steps))
-    return labels[which]
+    """The integers; raises CorruptError where there is no such label, or no such list."""
+    return Listing(plan.n_labels, plan.labels).at(which)

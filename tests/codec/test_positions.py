@@ -6,10 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ebz.codec import _kernels, positions
+import ebz
+from ebz.codec import _kernels, pipeline, positions
 from ebz.codec.connectivity import Surface, traverse
 from ebz.codec.positions import Coding, Method
 from ebz.codec.sample import glued_grid
+from tests.connectivity_check import same_mesh
 from tests.meshes import face_lists, rngs
 from tests.oracles import medium
 
@@ -49,7 +51,8 @@ def encode(surface: Surface, n: int, coordinates: Values, method: Method) -> byt
 
 
 def decode(data: bytes, surface: Surface, n: int, method: Method) -> Values:
-    return positions.decode(data, surface, n, Coding(method)).reshape(-1)
+    coded = positions.Coded(data, Coding(method))
+    return positions.decode(coded, surface, n).reshape(-1)
 
 
 @settings(deadline=None)
@@ -123,3 +126,25 @@ def test_methods_of_32_bits_give_nothing_for_wider_values(method, value):
     coordinates = np.zeros(9, np.int64)
     coordinates[4] = value
     assert encode(surface, 3, coordinates, method) == b""
+
+
+@pytest.mark.parametrize("level", [1, 3, 6, 9])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_floats_that_come_again_are_listed(dtype, level):
+    sizes = np.random.default_rng(0).normal(size=20)
+    faces = glued_grid(16, 16, "open", "open")[2]
+    chosen = np.random.default_rng(1).choice(20**3, int(faces.max()) + 1, replace=False)
+    places = np.stack(np.unravel_index(chosen, (20, 20, 20)), axis=1)
+    mesh = ebz.Mesh(np.unique(sizes)[places].astype(dtype), faces)
+    encoded, _ = pipeline.encode(mesh, level=level)
+    assert encoded.coding.is_listed
+    assert encoded.streams.listing.n == 20
+    # A list costs less than its floats, a place in it little more than it says.
+    assert encoded.streams.listing.size < 20 * mesh.vertices.itemsize
+    assert len(encoded.streams.positions) <= 1.15 * places.size * np.log2(20) / 8 + 40
+    assert same_mesh(mesh, ebz.decompress(ebz.compress(mesh, level=level)))
+
+
+def test_coordinates_that_fill_their_range_are_not_listed():
+    mesh = ebz.Mesh(np.random.default_rng(0).integers(0, 50, (400, 3)).astype(float), [])
+    assert not pipeline.encode(mesh, keep_order=True)[0].coding.is_listed

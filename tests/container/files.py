@@ -75,6 +75,7 @@ def files() -> dict[str, bytes]:
         "grid": ebz.compress(finite, grid=((1, 2, 3), 0.01)),
         "float": ebz.compress(ebz.Mesh(np.sqrt(random.astype(float)), finite.faces)),
         "single": ebz.compress(ebz.Mesh(np.sqrt(random).astype(float), finite.faces)),
+        "listed": ebz.compress(ebz.Mesh(np.sqrt(np.arange(18) % 5).reshape(6, 3), [[0, 1, 2]] * 6)),
         "automaton": ebz.compress(triangle, model="loop-60", embed_model=True),
         "stack": ebz.compress(triangle, model="stack", embed_model=True),
         "order": ebz.compress(plain, keep_order=True),
