@@ -60,15 +60,16 @@ class EncodedText:
 class EncodedElement:
     """Rows beside vertices and faces.
 
-    corners: in rows of `width`, their vertices in output order.  lengths: how many of the corners
-    each row has; None where all have the same number.
+    corners: in rows of `width`, their vertices in output order; None where `links` holds them.
+    lengths: how many of the corners each row has; None where all have the same number.
     """
 
     name: str
     n_rows: int
     n_corners: int
     lengths: EncodedArray | None
-    corners: EncodedArray
+    corners: EncodedArray | None
+    links: bytes
     attributes: list[EncodedArray]
     corner_attributes: list[EncodedArray]
     place: str = "element"

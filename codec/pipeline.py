@@ -140,7 +140,7 @@ def encode(
         )
         if mesh.corner_attributes
         else [],
-        elements=rows.encode(mesh.elements, order.number_of, attribute_precision),
+        elements=rows.encode(mesh.elements, order.number_of, attribute_precision, sites),
         metadata=metadata.encode(mesh.metadata),
     )
     decoded = _restored(mesh, order, kept, sites)
@@ -186,7 +186,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         else {},
         coding.decode(encoded.face_attributes, sites.by_face) if encoded.face_attributes else {},
         corners.decode(encoded.corner_attributes, sites),
-        rows.decode(encoded.elements, n_vertices),
+        rows.decode(encoded.elements, sites),
         _decode_metadata(encoded),
     )
     mesh = _arranged(sites, _decode_order(encoded, surface, split, integers), carried)

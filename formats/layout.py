@@ -245,7 +245,8 @@ Element = Struct(
     "n_rows" / VarInt,
     "n_corners" / VarInt,
     "lengths" / PrefixedArray(Byte, Nested),  # one or none
-    "corners" / Nested,
+    "corners" / PrefixedArray(Byte, Nested),  # one, or none where links are
+    "links" / Prefixed(VarInt, GreedyBytes),
     "attributes" / PrefixedArray(VarInt, Nested),
     "corner_attributes" / PrefixedArray(VarInt, Nested),
     Terminated,

@@ -126,10 +126,14 @@ def _check(what: str, count: int, bits_each: float, n_bytes: int) -> None:
 
 
 def _elements_size(element: EncodedElement) -> int:
-    width = element.corners.shape[0]
     lengths = [element.lengths] if element.lengths else []
     size = _arrays_size([*lengths, *element.attributes], element.n_rows)
-    size += _arrays_size([element.corners], -(-element.n_corners // width))
+    if element.corners:
+        width = element.corners.shape[0]
+        size += _arrays_size([element.corners], -(-element.n_corners // width))
+    else:
+        with corrupt_at(element.place):
+            _check("corners", element.n_corners, CHEAPEST_BIT, len(element.links))
     size += _arrays_size(element.corner_attributes, element.n_corners)
     return size + BYTES_PER_ROW * (element.n_rows + element.n_corners)
 

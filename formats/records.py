@@ -37,7 +37,8 @@ def element(rows: EncodedElement) -> bytes:
             "n_rows": rows.n_rows,
             "n_corners": rows.n_corners,
             "lengths": [_attribute(rows.lengths)] if rows.lengths else [],
-            "corners": _attribute(rows.corners),
+            "corners": [_attribute(rows.corners)] if rows.corners else [],
+            "links": rows.links,
             "attributes": [_attribute(array) for array in rows.attributes],
             "corner_attributes": [_attribute(array) for array in rows.corner_attributes],
         },
@@ -51,13 +52,17 @@ def parse_element(chunk: Chunk) -> EncodedElement:
         parsed = layout.parse(layout.Element, chunk.payload)
         if max(parsed.n_rows, parsed.n_corners) >= MAX_COUNT or len(parsed.lengths) > 1:
             raise CorruptError("more rows or corners than there can be")
+        if len(parsed.corners) > 1 or (parsed.corners and parsed.links):
+            raise CorruptError("corners are told twice")
         lengths = [_parse_attribute(array, where) for array in parsed.lengths]
+        corners = [_parse_attribute(array, where) for array in parsed.corners]
         return EncodedElement(
             name=_parse_name(parsed.name),
             n_rows=parsed.n_rows,
             n_corners=parsed.n_corners,
             lengths=_of_integers(lengths[0], np.dtype(np.int64), 0) if lengths else None,
-            corners=_of_integers(_parse_attribute(parsed.corners, where), np.dtype(np.int32), 1),
+            corners=_of_integers(corners[0], np.dtype(np.int32), 1) if corners else None,
+            links=parsed.links,
             attributes=_parse_all(parsed.attributes, where),
             corner_attributes=_parse_all(parsed.corner_attributes, where),
             place=where,

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import pipeline
+from ebz.codec import _kernels, pipeline
 from ebz.codec.attributes.bundles import bundles
 from ebz.codec.attributes.plan import Guess, Method, Relation
 from ebz.codec.sample import random_triangulation, torus
@@ -328,3 +328,40 @@ def test_precisions_that_make_no_sense_are_refused(options, message):
     mesh = ebz.Mesh(np.eye(3), [[0, 1, 2]], {"a": np.zeros(3)})
     with pytest.raises(ebz.OptionError, match=message):
         ebz.compress(mesh, **options)
+
+
+@settings(max_examples=80, deadline=None)
+@given(carrying(), rngs)
+def test_corners_of_rows_come_back_along_any_mesh(mesh, rng):
+    n = mesh.n_vertices
+    offsets = np.concatenate([[0], np.cumsum(rng.integers(0, 5, 30))]) if n else np.zeros(4, int)
+    vertices = rng.integers(0, max(n, 1), offsets[-1])
+    along = np.concatenate([mesh.corners, mesh.corners[::-1], vertices])[: offsets[-1]]
+    ends = np.arange(0, mesh.n_corners + 1, 3, dtype=np.int32)
+    of_mesh = (mesh.corners.astype(np.int32), ends, mesh.vertices.astype(float).reshape(-1))
+    for told in (vertices, along):
+        rows = offsets[: np.searchsorted(offsets, len(told), side="right")]
+        corners = told[: rows[-1]].astype(np.int32)
+        data = np.frombuffer(_kernels.encode_links(*of_mesh, rows, corners), np.uint8)
+        assert np.array_equal(_kernels.decode_links(data, *of_mesh, rows), corners)
+
+
+def element_bytes(mesh: ebz.Mesh, rows: np.ndarray) -> int:
+    offsets = np.arange(0, rows.size + 1, rows.shape[1])
+    element = ebz.Element(offsets, rows.reshape(-1).astype(np.int32))
+    with_rows = ebz.Mesh(mesh.vertices, mesh.faces, elements={"edge": element})
+    data = ebz.compress(with_rows)
+    decoded, order = ebz.decompress(data), ebz.compress(with_rows, return_permutation=True)[1]
+    assert np.array_equal(order.vertices[decoded.elements["edge"].corners], element.corners)
+    return next(s.bytes for s in ebz.stats(data).streams if s.name == "elements")
+
+
+def test_rows_that_are_edges_cost_little():
+    mesh = torus(4900)  # of rings of 70 vertices
+    ends = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
+    edges = np.unique(np.sort(ends, axis=1), axis=0)
+    assert 8 * element_bytes(mesh, edges) < 4.5 * len(edges)
+    ring = np.arange(70)
+    lines = np.concatenate([np.stack([ring, np.roll(ring, -1)], axis=1) + 70 * i for i in (3, 9)])
+    assert set(map(tuple, np.sort(lines, axis=1).tolist())) <= set(map(tuple, edges.tolist()))
+    assert 8 * element_bytes(mesh, lines) < 3 * len(lines)

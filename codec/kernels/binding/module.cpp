@@ -36,6 +36,7 @@ NB_MODULE(_kernels, m) {
     ebz::binding::bind_positions(m);
     ebz::binding::bind_lattices(m);
     ebz::binding::bind_attributes(m);
+    ebz::binding::bind_elements(m);
     ebz::binding::bind_orders(m);
     ebz::binding::bind_streams(m);
 }

@@ -6,6 +6,7 @@
 namespace ebz::binding {
 
 void bind_attributes(nanobind::module_& m);
+void bind_elements(nanobind::module_& m);
 void bind_lattices(nanobind::module_& m);
 void bind_orders(nanobind::module_& m);
 void bind_polygons(nanobind::module_& m);
