@@ -32,7 +32,7 @@ public:
     FastCoder(Coder& coder, const Surface& mesh, std::span<FastVertex> vertices)
         : coder_(coder), opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()),
           n_faces_(static_cast<int32_t>(mesh.vertex.size() / 3)), vertices_(vertices.data()),
-          n_vertices_(mesh.n_vertices) {}
+          sizes_(std::make_unique_for_overwrite<Sizes[]>(vertices.size())), n_vertices_(mesh.n_vertices) {}
 
     // In blocks, in steps that do not wait for each other: faces are sifted for those that have a new vertex,
     // what predicts these is looked up, and they are coded.
@@ -92,7 +92,7 @@ private:
         const UintLanes pb = lanes(b), first = lanes(a) + pb - lanes(vertices_[of.o]);
         const UintLanes other = pb + lanes(vertices_[of.x]) - lanes(vertices_[of.y]);
         const UintLanes base = first + reinterpret_cast<UintLanes>(reinterpret_cast<IntLanes>(other - first) >> 1);
-        code(of.kind, base, mean(a.sizes, b.sizes));
+        code(of.kind, base, mean(sizes_[of.a], sizes_[of.b]));
     }
 
     void face(int32_t gate) {
@@ -104,21 +104,17 @@ private:
     void from_latest(size_t kind) {
         Sizes& steps = steps_[kind - without_parallelogram];
         code(kind, known_ > 0 ? lanes(vertices_[known_ - 1]) : UintLanes{}, steps);
-        steps = vertices_[known_ - 1].sizes;
-        vertices_[known_ - 1].sizes = 0;
+        steps = sizes_[known_ - 1];
+        sizes_[known_ - 1] = 0;
     }
 
     // All lanes are written at once: what is read next is forwarded whole.
     void code(size_t kind, UintLanes base, Sizes expected) {
-        FastVertex& at = vertices_[known_++];
+        FastVertex& at = vertices_[known_];
         FastModel::Residuals e{};
-        if constexpr (Coder::encoding) {
-            const UintLanes residual = lanes(at) - base;
-            for (size_t d = 0; d < 3; ++d) e[d] = static_cast<int32_t>(residual[d]);
-        }
-        const Sizes sizes = model_.code(coder_, kind, expected, e);
-        UintLanes position = base + reinterpret_cast<UintLanes>(IntLanes{e[0], e[1], e[2], 0});
-        position[3] = sizes;
+        if constexpr (Coder::encoding) e = reinterpret_cast<IntLanes>(lanes(at) - base);
+        sizes_[known_++] = model_.code(coder_, kind, expected, e);
+        UintLanes position = base + reinterpret_cast<UintLanes>(e);
         std::memcpy(&at, &position, sizeof at);
     }
 
@@ -129,6 +125,7 @@ private:
     const int32_t *opposite_, *vertex_;
     int32_t n_faces_;
     FastVertex* vertices_;
+    std::unique_ptr<Sizes[]> sizes_;  // of the residuals of each vertex: apart, as the next one waits for them
     int32_t n_vertices_, known_ = 0;
     std::array<Sizes, 2> steps_{};
     FastModel model_;

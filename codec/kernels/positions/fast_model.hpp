@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "../adaptive_symbol.hpp"
+#include "lanes.hpp"
 #include "residual_digits.hpp"
 #include "wrapping.hpp"
 
@@ -62,7 +63,7 @@ class FastModel {
 public:
     static constexpr size_t n_kinds = 4;
     using Row = AdaptiveSymbol<16>;
-    using Residuals = std::array<int32_t, 3>;
+    using Residuals = IntLanes;  // the last lane is of no account
 
     // expected: the half-octaves that the magnitudes are expected in.  Returns those that they are found in.
     template <class Coder>
@@ -72,7 +73,7 @@ public:
         uint32_t escapes = 0;
         for (size_t d = 0; d < 3; ++d) {
             const uint32_t x = size_of(expected, d);
-            const uint32_t token = code_token(coder, d, rows_[d][kind][x], e[d], shift_of(x));
+            const uint32_t token = code_token(coder, d, rows_[kind][d][x], e[d], shift_of(x));
             found[d] = &meanings[x][token];
             escapes |= token + 1;
         }
@@ -85,13 +86,18 @@ public:
             return sizes;
         }
         Sizes sizes = 0;
+        UintLanes least{}, digits{};
         coder.plain.together([&](auto bits) {
             for (size_t d = 0; d < 3; ++d) {
                 const Meaning& m = *found[d];
-                e[d] = m.residual(bits(Coder::encoding ? m.digits(e[d]) : 0, m.n_bits));
+                digits[d] = static_cast<uint32_t>(bits(Coder::encoding ? m.digits(e[d]) : 0, m.n_bits));
+                least[d] = m.least;
                 sizes |= Sizes{m.size} << (8 * d);
             }
         });
+        // As Meaning::residual.
+        const UintLanes sign = digits & 1;
+        if constexpr (!Coder::encoding) e = reinterpret_cast<IntLanes>(((least + (digits >> 1)) ^ (0 - sign)) + sign);
         return sizes;
     }
 
@@ -109,7 +115,7 @@ private:
         std::array<Meaning, 3> wide;
         for (size_t d = 0; d < 3; ++d) {
             const uint32_t x = size_of(expected, d);
-            wide[d] = Meaning(code_token(coder, d, rows_[d][kind][std::min(x, n_expected - 1)], e[d], shift_of(x)), shift_of(x));
+            wide[d] = Meaning(code_token(coder, d, rows_[kind][d][std::min(x, n_expected - 1)], e[d], shift_of(x)), shift_of(x));
         }
         return code_surprises(coder, {&wide[0], &wide[1], &wide[2]}, e);
     }
@@ -150,7 +156,7 @@ private:
         return e;
     }
 
-    std::array<std::array<std::array<Row, n_expected>, n_kinds>, 3> rows_;
+    std::array<std::array<std::array<Row, n_expected + 1>, 3>, n_kinds> rows_;
     std::array<Row, 3> places_;
     std::array<std::array<int32_t, n_recent>, 3> recent_{};
     std::array<uint8_t, 3> oldest_{};
