@@ -145,7 +145,7 @@ std::vector<Index> Reverse::united_vertices() const {
         while (first[v] != v) v = first[v] = first[first[v]];
         return v;
     };
-    for (const auto [v, w] : same_) {
+    for (const auto& [v, w] : same_) {
         const Index a = root(v), b = root(w);
         first[std::max(a, b)] = std::min(a, b);
     }
