@@ -1,11 +1,14 @@
 """The entry point of the shell tool: nothing heavy is imported before signals are in order."""
 
+import gc
 import os
 import signal
 import sys
 
 # Signals that end the process quietly, by their own means, so that a shell sees 128 + signal.
 QUIET = (signal.SIGINT, signal.SIGPIPE)
+
+LONG_LIVED = 100_000
 
 
 def main() -> None:
@@ -17,6 +20,8 @@ def main() -> None:
     _occupy_standard_descriptors()
     # No command multiplies large matrices; starting a thread per core takes tens of milliseconds.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # Importing makes this many objects, all of which stay: there is no garbage to look for.
+    gc.set_threshold(LONG_LIVED)
     from ebz.cli import group
 
     status = group.run(sys.argv[1:])

@@ -1,6 +1,5 @@
 """Metadata <-> bytes: JSON-like values, with byte strings besides."""
 
-import json
 from typing import Any
 
 from ebz.codec import text
@@ -36,6 +35,8 @@ def decode(encoded: EncodedText | None) -> dict[str, Any]:
 
 def to_text(metadata: dict[str, Any]) -> tuple[bytes, bytes]:
     """Compact JSON in UTF-8 and long byte strings; raises MeshError for what JSON cannot hold."""
+    import json
+
     raw: list[bytes] = []
     try:
         values = _to_json(metadata, raw)
@@ -47,6 +48,8 @@ def to_text(metadata: dict[str, Any]) -> tuple[bytes, bytes]:
 
 def from_text(words: bytes, raw: bytes = b"") -> dict[str, Any]:
     """The values; raises CorruptError where the bytes are not a JSON object."""
+    import json
+
     strings = _Strings(raw)
     try:
         metadata = json.loads(words.decode("utf-8", "surrogatepass"), object_hook=strings.replace)

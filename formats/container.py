@@ -1,15 +1,18 @@
-"""The chunks of one mesh <-> the encoded mesh, in decode order; FORMAT.md describes every byte."""
+"""The chunks of one mesh <-> the encoded mesh, in decode order; FORMAT.md describes every byte.
 
-from collections.abc import Iterator, Sequence
+records, for attributes and elements, is imported where a mesh has any: see declarations.
+"""
+
+from collections.abc import Iterator
 
 import numpy as np
 
-from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, EncodedText, Streams
+from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, VersionError, corrupt_at
 from ebz.codec.listing import Listing
 from ebz.codec.models.load import AnyTable
 from ebz.codec.order import OrderStreams
-from ebz.formats import chunks, header, layout, records, tables
+from ebz.formats import chunks, header, layout, payloads, tables
 from ebz.formats.chunks import Chunk
 from ebz.formats.header import Header
 
@@ -43,14 +46,22 @@ def write(encoded: EncodedMesh, *, embed_model: bool = False) -> list[bytes]:
         (layout.ROTATIONS, streams.order.rotations),
     ]
     parts += [chunks.write(kind, payload) for kind, payload in optional if payload]
+    return [*parts, *_write_carried(encoded), chunks.write(layout.END, encoded.digest)]
+
+
+def _write_carried(encoded: EncodedMesh) -> list[bytes]:
+    """The chunks of what a mesh has besides its surface."""
     carried = encoded.vertex_attributes, encoded.face_attributes, encoded.corner_attributes
-    for kind, arrays in zip(ATTRIBUTES, carried, strict=True):
-        parts += [chunks.write(kind, records.attribute(array)) for array in arrays]
-    parts += [chunks.write(layout.ELEMENT, records.element(rows)) for rows in encoded.elements]
+    parts = []
+    if any(carried) or encoded.elements:
+        from ebz.formats import records
+
+        for kind, arrays in zip(ATTRIBUTES, carried, strict=True):
+            parts += [chunks.write(kind, records.attribute(array)) for array in arrays]
+        parts += [chunks.write(layout.ELEMENT, records.element(rows)) for rows in encoded.elements]
     if encoded.metadata:
-        text = layout.build(layout.Text, records.text(encoded.metadata))
-        parts.append(chunks.write(layout.METADATA, text))
-    return [*parts, chunks.write(layout.END, encoded.digest)]
+        parts.append(chunks.write(layout.METADATA, payloads.text(encoded.metadata)))
+    return parts
 
 
 def read(data: memoryview, offset: int) -> tuple[EncodedMesh, int]:
@@ -64,20 +75,29 @@ def read(data: memoryview, offset: int) -> tuple[EncodedMesh, int]:
     for chunk in _in_order(data, offset):
         found[chunk.type] = chunk
         if chunk.type in ATTRIBUTES:
-            array = records.parse_attribute(chunk)
-            _check_names(array.names, [n for a in arrays[chunk.type] for n in a.names], chunk)
-            arrays[chunk.type].append(array)
+            _add_attribute(chunk, arrays[chunk.type])
         elif chunk.type == layout.ELEMENT:
-            element = records.parse_element(chunk)
-            _check_names([element.name], [other.name for other in elements], chunk)
-            elements.append(element)
+            _add_element(chunk, elements)
     end = found[layout.END]
     return _parse(found, arrays, elements), end.offset + end.size
 
 
-def _check_names(names: Sequence[str], others: list[str], chunk: Chunk) -> None:
+def _add_attribute(chunk: Chunk, arrays: list[EncodedArray]) -> None:
+    from ebz.formats import records
+
+    array = records.parse_attribute(chunk)
     with corrupt_at(chunk):
-        records.check_names(names, others)
+        records.check_names(array.names, [name for other in arrays for name in other.names])
+    arrays.append(array)
+
+
+def _add_element(chunk: Chunk, elements: list[EncodedElement]) -> None:
+    from ebz.formats import records
+
+    element = records.parse_element(chunk)
+    with corrupt_at(chunk):
+        records.check_names([element.name], [other.name for other in elements])
+    elements.append(element)
 
 
 def _in_order(data: memoryview, offset: int) -> Iterator[Chunk]:
@@ -109,7 +129,7 @@ def _parse(
     with corrupt_at(found[layout.HEADER]):
         head = header.read(found[layout.HEADER].payload)
     _check_presence(head, found)
-    payloads = {kind: chunk.payload for kind, chunk in found.items()}
+    contents = {kind: chunk.payload for kind, chunk in found.items()}
     exception_rows, exception_values = _parse_exceptions(found.get(layout.EXCEPTIONS))
     listing, positions = _parse_positions(found.get(layout.POSITIONS), head)
     return EncodedMesh(
@@ -121,23 +141,23 @@ def _parse(
         coding=head.coding,
         model=tables.read(head.model, found.get(layout.MODEL)),
         streams=Streams(
-            word=payloads.get(layout.WORD, b""),
-            special_integers=payloads.get(layout.SPECIALS, b""),
-            gluing=payloads.get(layout.GLUING, b""),
-            splits=payloads.get(layout.SPLITS),
+            word=contents.get(layout.WORD, b""),
+            special_integers=contents.get(layout.SPECIALS, b""),
+            gluing=contents.get(layout.GLUING, b""),
+            splits=contents.get(layout.SPLITS),
             positions=positions,
             listing=listing,
-            points=payloads.get(layout.POINTS),
+            points=contents.get(layout.POINTS),
             exception_rows=exception_rows,
             exception_values=exception_values,
-            order=OrderStreams(*map(payloads.get, ORDER_CHUNKS)),
+            order=OrderStreams(*map(contents.get, ORDER_CHUNKS)),
         ),
         vertex_attributes=arrays[layout.VERTEX_ATTRIBUTE],
         face_attributes=arrays[layout.FACE_ATTRIBUTE],
         corner_attributes=arrays[layout.CORNER_ATTRIBUTE],
         elements=elements,
-        metadata=_text(found.get(layout.METADATA)),
-        digest=payloads[layout.END],
+        metadata=payloads.parse_text(found[layout.METADATA]) if layout.METADATA in found else None,
+        digest=contents[layout.END],
         places={layout.NAMES[kind]: chunk for kind, chunk in found.items()},
     )
 
@@ -145,16 +165,7 @@ def _parse(
 def _parse_exceptions(chunk: Chunk | None) -> tuple[bytes, bytes]:
     if chunk is None:
         return b"", b""
-    with corrupt_at(chunk):
-        parsed = layout.parse(layout.Exceptions, chunk.payload)
-    return parsed.rows, parsed.exact
-
-
-def _text(chunk: Chunk | None) -> EncodedText | None:
-    if chunk is None:
-        return None
-    with corrupt_at(chunk):
-        return records.parse_text(layout.parse(layout.Text, chunk.payload))
+    return payloads.parse_exceptions(chunk)
 
 
 def _check_presence(head: Header, found: dict[bytes, Chunk]) -> None:
@@ -205,5 +216,4 @@ def _parse_positions(chunk: Chunk | None, head: header.Header) -> tuple[Listing 
 
 
 def _exceptions(streams: Streams) -> bytes:
-    values = {"rows": streams.exception_rows, "exact": streams.exception_values}
-    return layout.build(layout.Exceptions, values)
+    return payloads.exceptions(streams.exception_rows, streams.exception_values)

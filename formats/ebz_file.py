@@ -4,7 +4,7 @@ from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import corrupt_at
 from ebz.codec.scene import in_part
 from ebz.codec.scenes import Encoded, EncodedScene
-from ebz.formats import chunks, container, layout, records
+from ebz.formats import chunks, container, layout, payloads
 from ebz.formats.chunks import Chunk
 from ebz.formats.limits import check_memory, check_text, declared_size, scene_size
 
@@ -13,8 +13,7 @@ def write(encoded: Encoded, *, embed_model: bool = False) -> bytes:
     """The file; embed_model: store the tables of models that are built in, too."""
     if isinstance(encoded, EncodedMesh):
         return b"".join([chunks.start(), *container.write(encoded, embed_model=embed_model)])
-    head = {"n_parts": len(encoded.parts), "text": records.text(encoded.metadata)}
-    payload = layout.build(layout.Scene, head)
+    payload = payloads.scene(len(encoded.parts), encoded.metadata)
     parts = [chunks.start(), chunks.write(layout.SCENE, payload)]
     for part in encoded.parts:
         parts += container.write(part, embed_model=embed_model)
@@ -37,13 +36,12 @@ def read(data: memoryview, *, memory_limit: int) -> Encoded:
 
 
 def _read_scene(data: memoryview, chunk: Chunk, memory_limit: int) -> EncodedScene:
+    n_parts, text = payloads.parse_scene(chunk)
     with corrupt_at(chunk):
-        head = layout.parse(layout.Scene, chunk.payload)
-        text = records.parse_text(head.text) if head.text.size else None
         check_text(text)
     parts: list[EncodedMesh] = []
     end = chunk.offset + chunk.size
-    while len(parts) < head.n_parts:
+    while len(parts) < n_parts:
         with in_part(len(parts)):
             part, end = container.read(data, end)
         parts.append(part)

@@ -16,7 +16,7 @@ MAX_DIVISOR = 65535
 
 
 def build(plan: Plan) -> dict[str, Any]:
-    """The values of layout.Plan."""
+    """The values of declarations.Plan."""
     return {
         "lattice": {"kind": plan.lattice.kind, "parameters": vars(plan.lattice)},
         "method": plan.method,

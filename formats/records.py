@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from ebz.codec.arrays import MAX_DIMENSIONS, MAX_ENTRY, NUMBERS
-from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedText
+from ebz.codec.encoded import EncodedArray, EncodedElement
 from ebz.codec.errors import CorruptError, corrupt_at
-from ebz.formats import heads, layout, plans
+from ebz.formats import declarations, heads, plans
 from ebz.formats.chunks import Chunk
 
 # Longer floats exist on some machines only.
@@ -19,19 +19,21 @@ MAX_COUNT = 2**63
 
 def attribute(array: EncodedArray) -> bytes:
     """The payload of an attribute chunk."""
-    return layout.build(layout.Attribute, _attribute(array))
+    return declarations.build(declarations.Attribute, _attribute(array))
 
 
 def parse_attribute(chunk: Chunk) -> EncodedArray:
     """The attribute of a chunk; raises CorruptError."""
     with corrupt_at(chunk):
-        return _parse_attribute(layout.parse(layout.Attribute, chunk.payload), str(chunk))
+        return _parse_attribute(
+            declarations.parse(declarations.Attribute, chunk.payload), str(chunk)
+        )
 
 
 def element(rows: EncodedElement) -> bytes:
     """The payload of an element's chunk."""
-    return layout.build(
-        layout.Element,
+    return declarations.build(
+        declarations.Element,
         {
             "name": _to_bytes(rows.name),
             "n_rows": rows.n_rows,
@@ -49,7 +51,7 @@ def parse_element(chunk: Chunk) -> EncodedElement:
     """The element of a chunk; raises CorruptError."""
     where = str(chunk)
     with corrupt_at(where):
-        parsed = layout.parse(layout.Element, chunk.payload)
+        parsed = declarations.parse(declarations.Element, chunk.payload)
         if max(parsed.n_rows, parsed.n_corners) >= MAX_COUNT or len(parsed.lengths) > 1:
             raise CorruptError("more rows or corners than there can be")
         if len(parsed.corners) > 1 or (parsed.corners and parsed.links):
@@ -79,8 +81,8 @@ def check_names(names: Sequence[str], others: Iterable[str]) -> None:
 
 
 def _attribute(array: EncodedArray) -> dict[str, Any]:
-    head = layout.build(
-        layout.AttributeHead,
+    head = declarations.build(
+        declarations.AttributeHead,
         {
             "names": [_to_bytes(name) for name in array.names],
             "kind": array.dtype.kind.encode(),
@@ -95,7 +97,7 @@ def _attribute(array: EncodedArray) -> dict[str, Any]:
 
 
 def _parse_attribute(parsed: Any, where: str) -> EncodedArray:
-    head = layout.parse(layout.AttributeHead, heads.decode(parsed.head, parsed.n_head))
+    head = declarations.parse(declarations.AttributeHead, heads.decode(parsed.head, parsed.n_head))
     dtype, shape = _parse_dtype(head), tuple(head.shape)
     if len(shape) >= MAX_DIMENSIONS or math.prod(filter(None, shape)) >= MAX_ENTRY:
         raise CorruptError(f"an attribute of shape {shape}")
@@ -150,17 +152,3 @@ def _parse_dtype(parsed: Any) -> np.dtype[Any]:
     except TypeError:
         pass
     raise CorruptError(f"an attribute of type {kind!r} with {parsed.itemsize} bytes")
-
-
-def text(encoded: EncodedText | None) -> dict[str, Any]:
-    """The values of layout.Text."""
-    encoded = encoded or EncodedText(0, b"")
-    size = 2 * encoded.n_bytes + (encoded.n_raw > 0)
-    return vars(encoded) | {"size": size}
-
-
-def parse_text(parsed: Any) -> EncodedText:
-    """The text that layout.Text declares."""
-    if len(parsed.raw) > parsed.n_raw:
-        raise CorruptError(f"{len(parsed.raw)} bytes for {parsed.n_raw}")
-    return EncodedText(parsed.size >> 1, parsed.data, parsed.n_raw, parsed.raw)

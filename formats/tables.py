@@ -1,4 +1,7 @@
-"""Model tables <-> the model chunk; built-in tables are known by number."""
+"""Model tables <-> the model chunk; built-in tables are known by number.
+
+declarations is imported where a file has a table of its own: see there.
+"""
 
 from functools import cache
 from typing import Any
@@ -42,9 +45,13 @@ def write(table: AnyTable) -> bytes:
         "n_rows": len(table.frequencies),
         "frequencies": table.frequencies[:, :-1].tolist(),
     }
+    from ebz.formats import declarations
+
     if isinstance(table, Table):
         successors = {"successors": table.successors.tolist()}
-        return bytes([layout.AUTOMATON]) + layout.build(layout.Automaton, common | successors)
+        return bytes([layout.AUTOMATON]) + declarations.build(
+            declarations.Automaton, common | successors
+        )
     classes = {
         "n_conflicts": table.top.shape[1],
         "top": table.top.tobytes(),
@@ -52,7 +59,7 @@ def write(table: AnyTable) -> bytes:
         "step": table.step.tobytes(),
         "bottom": table.bottom,
     }
-    return bytes([layout.STACK]) + layout.build(layout.Stack, common | classes)
+    return bytes([layout.STACK]) + declarations.build(declarations.Stack, common | classes)
 
 
 def read(number: int, chunk: Chunk | None) -> WordModel:
@@ -72,13 +79,15 @@ def read(number: int, chunk: Chunk | None) -> WordModel:
 
 
 def _parse(chunk: Chunk) -> AnyTable:
+    from ebz.formats import declarations
+
     kind, body = chunk.payload[:1], chunk.payload[1:]
     if kind == bytes([layout.AUTOMATON]):
-        parsed = layout.parse(layout.Automaton, body)
+        parsed = declarations.parse(declarations.Automaton, body)
         successors = np.array(parsed.successors, np.uint16).reshape(-1, 5)
         return Table(_name(parsed), _frequencies(parsed), successors)
     if kind == bytes([layout.STACK]):
-        parsed = layout.parse(layout.Stack, body)
+        parsed = declarations.parse(declarations.Stack, body)
         top = np.frombuffer(parsed.top, np.uint8).reshape(-1, parsed.n_conflicts)
         step = np.frombuffer(parsed.step, np.uint8).reshape(-1, parsed.n_lengths)
         return StackTable(_name(parsed), _frequencies(parsed), top, step, parsed.bottom)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import io
-import zipfile
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ebz.codec.errors import OptionError
+
+if TYPE_CHECKING:
+    import zipfile
 
 # No array of a table has more entries: 65535 rows of five.
 MAX_ENTRIES = 65535 * 5
@@ -49,6 +51,8 @@ def integers(arrays: Arrays, name: str, dtype: type) -> npt.NDArray[Any]:
 
 def unpack(data: bytes) -> Arrays:
     """Every array of an npz; the sizes that it declares are checked before any is allocated."""
+    import zipfile
+
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return {
