@@ -3,32 +3,19 @@
 Without construct, which takes longer than a small mesh does to decode.
 """
 
-import math
 import struct
 from dataclasses import astuple
-from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ebz.codec.connectivity import WordCounts
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import CorruptError, VersionError
-from ebz.codec.lattice import (
-    MAX_BITS,
-    MAX_DIGITS,
-    MAX_SINGLE_DIGITS,
-    BoxLattice,
-    DecimalLattice,
-    FloatLattice,
-    GridLattice,
-    Lattice,
-    SingleLattice,
-    StepLattice,
-)
+from ebz.codec.lattice import Lattice, SingleLattice
 from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.polygons import Cut, PolygonCounts
 from ebz.codec.positions import FLOAT_METHODS, Coding, Method, can_cut
-from ebz.formats import layout, tables
+from ebz.formats import lattices, layout, tables
 
 MAX_COUNT = 2**63
 # Of faces: all are triangles, or of any size; else the size of all.
@@ -38,16 +25,6 @@ NO_SIZES = (2, 3)
 # cut polygons.
 N_METHODS, LISTED = 64, 32
 DTYPE_SIZES = (4, 8)
-# In the order of their numbers.
-PARAMETERS = {
-    FloatLattice: "",
-    DecimalLattice: "B",
-    BoxLattice: "B 3{corner} d",  # the corner is of the dtype of the coordinates
-    StepLattice: "d",
-    GridLattice: "3d d",
-    SingleLattice: "B",
-}
-LATTICES = tuple(PARAMETERS)
 
 
 class Header(NamedTuple):
@@ -90,11 +67,9 @@ def write(encoded: EncodedMesh, model: int) -> bytes:
     )
     size = _face_size(counts)
     polygons = astuple(counts.polygons) if counts.polygons and size == MIXED else ()
-    kind = LATTICES.index(type(lattice))
-    numbers = bytes([model, _byte_of(encoded.coding), kind])
-    parameters = _parameters(kind, itemsize).pack(*_flat(astuple(lattice)))
+    numbers = bytes([model, _byte_of(encoded.coding)])
     sizes = [*map(layout.varint, integers), bytes([size]), *map(layout.varint, polygons)]
-    return bytes([itemsize]) + b"".join(sizes) + numbers + parameters
+    return bytes([itemsize]) + b"".join(sizes) + numbers + lattices.write(lattice, itemsize)
 
 
 def read(payload: bytes) -> Header:
@@ -127,7 +102,7 @@ class _Reader:
             raise VersionError(f"header: unknown model {model}")
         if polygons and layout.ADAPTIVE_MODELS.get(model, Effort.DIRECT) == Effort.DIRECT:
             raise CorruptError(f"polygons under model {model}")
-        lattice = self._lattice(itemsize)
+        lattice = lattices.read(self._data[self._at :], itemsize)
         coding = _coding(number, itemsize, lattice)
         if coding.cut and not (polygons and can_cut(n_symbols + n_closed, coding.cut)):
             raise CorruptError("faces that cannot be cut otherwise")
@@ -177,16 +152,6 @@ class _Reader:
             raise CorruptError(f"{n_corners} corners of {n_runs} polygons")
         return PolygonCounts(n_faces, n_empty, n_corners)
 
-    def _lattice(self, itemsize: int) -> Lattice:
-        """The last of the fields: nothing may follow."""
-        number = self._byte()
-        if number >= len(LATTICES):
-            raise VersionError(f"header: unknown lattice {number}")
-        parameters = _parameters(number, itemsize)
-        if self._at + parameters.size < len(self._data):
-            raise CorruptError("the header goes on after its last field")
-        return _checked(LATTICES[number], parameters.unpack_from(self._data, self._at), itemsize)
-
 
 def _check_counts(n_vertices: int, n_symbols: int, n_closed: int, n_single: int) -> None:
     if n_vertices > MAX_VERTICES:
@@ -224,41 +189,3 @@ def _coding(byte: int, itemsize: int, lattice: Lattice) -> Coding:
         return Coding(Method(number), Cut(way), bool(byte & LISTED))
     except ValueError:
         raise VersionError(f"header: unknown method {byte} of positions") from None
-
-
-@cache
-def _parameters(number: int, itemsize: int) -> struct.Struct:
-    parameters = PARAMETERS[LATTICES[number]]
-    return struct.Struct("<" + parameters.format(corner="f" if itemsize == 4 else "d"))
-
-
-def _flat(values: tuple[Any, ...]) -> list[Any]:
-    return [x for value in values for x in (value if isinstance(value, tuple) else (value,))]
-
-
-def _checked(kind: type[Lattice], values: tuple[Any, ...], itemsize: int) -> Lattice:
-    """The lattice of these parameters; raises CorruptError where they make no sense."""
-    if not all(map(math.isfinite, values)):
-        raise CorruptError(f"a lattice of {values}, not all finite")
-    first, last = (values[0], values[-1]) if values else (0, 0)
-    if kind is BoxLattice:
-        if not 1 <= first <= MAX_BITS:
-            raise CorruptError(f"a lattice of {first} bits")
-        return BoxLattice(first, values[1:4], last)
-    if kind is DecimalLattice:
-        if first > MAX_DIGITS[itemsize]:
-            raise CorruptError(f"a lattice of {first} decimals")
-        return DecimalLattice(first)
-    if kind is SingleLattice:
-        if itemsize != 8 or first > MAX_SINGLE_DIGITS:
-            raise CorruptError(f"float32 of {first} digits in {itemsize} bytes")
-        return SingleLattice(first)
-    if kind is StepLattice:
-        if first <= 0:
-            raise CorruptError(f"a maximal error of {first}")
-        return StepLattice(first)
-    if kind is GridLattice:
-        if last <= 0:
-            raise CorruptError(f"a grid of step {last}")
-        return GridLattice(values[:3], last)
-    return FloatLattice()
