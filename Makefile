@@ -9,7 +9,7 @@ SOURCES := $(shell find api codec formats cli -name '*.py' -o -name '*.pyi' -o -
 # Python files are links in the editable install: only a new file list needs a reinstall.
 KERNELS := $(filter codec/kernels/%,$(SOURCES))
 
-.PHONY: install demo test check stubs bench picture clean FORCE
+.PHONY: install demo test check stubs tables bench picture clean FORCE
 
 install: $(STAMP)
 
@@ -40,6 +40,9 @@ check: $(STAMP)
 
 stubs: $(STAMP)
 	$(BIN)/python -m nanobind.stubgen -q -m ebz.codec._kernels -o codec/_kernels.pyi
+
+tables: $(STAMP)
+	$(BIN)/python -m tests.format_tables
 
 bench: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[bench]'

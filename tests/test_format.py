@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from ebz.codec.positions import FLOAT_METHODS, Method
 from ebz.formats import layout
 from ebz.formats.header import Header
 from ebz.formats.limits import CHEAPEST_BIT, CHEAPEST_DECISION
+from tests import format_tables
 
 TEXT = (Path(__file__).parents[1] / "FORMAT.md").read_text("utf-8")
 ONE_LINE = re.sub(r"\s+", " ", TEXT)
@@ -64,3 +66,12 @@ def test_limits_are_those_of_the_code() -> None:
     assert f"have 1 to {MAX_EXTENT} rows and columns" in ONE_LINE
     assert f"at most {MAX_DIGITS[4]} for float32, {MAX_DIGITS[8]} for float64" in ONE_LINE
     assert f"bits (1 byte, 1 to {MAX_BITS})" in ONE_LINE
+
+
+def test_long_tables_are_those_of_the_code() -> None:
+    page = format_tables.PAGE.read_text("utf-8")
+    assert page == format_tables.page()
+    rows = [line.split() for line in page.splitlines() if line.startswith("    ")]
+    # Of 64 after two numbers; two kinds of weights of 6 and of 14 inputs; of 24, of 25.
+    sizes = Counter(map(len, rows))
+    assert sizes == {66: 55, 1: 2, 2: 8, 6: 4 * (1 + 7), 14: 4 * (1 + 15), 24: 25, 25: 24 + 9}
