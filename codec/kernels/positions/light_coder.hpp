@@ -75,11 +75,15 @@ private:
     }
 
     void code(const PredictedVertex& from) {
+        Position wanted = to_be_coded(from.vertex);
+        if (recalls_ && recalls_->tell(coder_.symbols, from, wanted)) {
+            surveyor_.settle(from.vertex, wanted, surveyor_.residual(recalls_->twin()));
+            return recalls_->learn(from, wanted);
+        }
         surveyor_.survey(from, s_);
         predictor_.predict(s_, !axes_.is_fixed());
         predictor_.expect(x_);
-        if (recalls_) recalls_->start(from, s_);
-        const Position wanted = to_be_coded(from.vertex);
+        if (recalls_) recalls_->start(s_);
         const std::array<size_t, 3> axes = AxisOrder::ending_with(predictor_.last(axes_.is_fixed() ? axes_.last : 2));
         Position position{}, residuals{};
         for (size_t turn = 0; turn < 3; ++turn) {

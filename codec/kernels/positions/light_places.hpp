@@ -62,7 +62,7 @@ private:
         }
     };
 
-    static int log2_entries(size_t n_vertices) { return std::clamp(static_cast<int>(std::bit_width(n_vertices)) + 1, 8, 16); }
+    static int log2_entries(size_t n_vertices) { return std::clamp(static_cast<int>(std::bit_width(n_vertices)) + 1, 8, 15); }
 
     static uint32_t key(size_t kind, std::array<uint32_t, 2> coordinates) {
         uint32_t h = static_cast<uint32_t>(kind) * 0x9E3779B1u;

@@ -31,15 +31,25 @@ public:
     LightRecalls(const Surface& mesh, size_t last, const LightSurveyor<Unsigned>& sites)
         : sites_(sites), first_(last == 0 ? 1 : 0), places_(static_cast<size_t>(mesh.n_vertices)), twins_(mesh, last) {}
 
+    // To be called first.  True if the vertex has been coded as its twin.
+    template <class Coder>
+    bool tell(Coder& coder, const PredictedVertex& from, Position& position) {
+        const std::array<Gate, 2> gates = {{{from.a, from.b, from.o}, {from.c, from.d, from.p}}};
+        twins_.start(from.vertex, std::span(gates).first(from.two() ? 2 : 1), *this);
+        if (!twins_.tell(as_integers(position), [&](bool same, uint32_t p) { return coder.bit(0, same, p); })) return false;
+        for (size_t d = 0; d < 3; ++d) position[d] = static_cast<Unsigned>(twins_.value(d));
+        return true;
+    }
+
+    int32_t twin() const { return twins_.vertex(); }
+
     // s stays as it is until the vertex has been learnt.
-    void start(const PredictedVertex& from, const Surroundings& s) {
+    void start(const Surroundings& s) {
         s_ = &s;
         neighbour_agrees_ = {};
         tip_agrees_ = {};
         n_known_ = 0;
         for (size_t d = 0; d < 3; ++d) places_.prefetch(d, origins(d), d == first_);
-        const std::array<Gate, 2> gates = {{{from.a, from.b, from.o}, {from.c, from.d, from.p}}};
-        twins_.start(from.vertex, std::span(gates).first(from.two() ? 2 : 1), *this);
     }
 
     // For twins.

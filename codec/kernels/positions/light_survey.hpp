@@ -49,6 +49,7 @@ public:
         : opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), known_(static_cast<size_t>(mesh.n_vertices)), sites_(sites) {}
 
     bool known(int32_t v) const { return known_[static_cast<size_t>(v)] != 0; }
+    Lanes residual(int32_t v) const { return std::bit_cast<Lanes>(sites_[v].residual); }
     Position at(int32_t v) const { return std::bit_cast<Position>(sites_[v].position); }
 
     void prefetch(const PredictedVertex& v) const {
@@ -103,11 +104,11 @@ private:
 
     void add_neighbour(Surroundings& s, int32_t u) const {
         const Position position = at(u);
-        const Lanes residual = std::bit_cast<Lanes>(sites_[u].residual);
+        const Lanes r = residual(u);
         s.neighbours += as_floats(position - s.first);
-        s.drift += residual;
-        s.size += magnitudes(residual);
-        s.exact += residual == 0.0f;
+        s.drift += r;
+        s.size += magnitudes(r);
+        s.exact += r == 0.0f;
         s.neighbour_at[s.n_neighbours++ % s.max_neighbours] = position;
     }
 

@@ -38,6 +38,7 @@ public:
     void start(int32_t v, std::span<const Gate> gates, const Sites& sites) {
         found_ = -1;
         n_agree_ = 0;
+        is_denied_ = false;
         for (const Gate& gate : gates) {
             const Counterpart other = across(gate);
             if (other.vertex < 0 || other.vertex == v || !sites.known(other.vertex)) continue;
@@ -54,7 +55,8 @@ public:
         }
     }
 
-    bool exists() const { return found_ >= 0; }
+    // A twin that was right on two axes is no more one where not all of it was to be right.
+    bool exists() const { return found_ >= 0 && !(is_denied_ && n_agree_ == 2); }
     int64_t value(size_t d) const { return value_[d]; }
 
     // 0 for a twin of which little is to be expected, at most 3.
@@ -63,12 +65,25 @@ public:
     // Axes so far on which the value was right.
     size_t n_agree() const { return n_agree_; }
 
-    void reveal(size_t d, int64_t value) { n_agree_ += exists() && value == value_[d] ? 1 : 0; }
+    // Whether a vertex has all coordinates of a strong twin, where that is likely.  bit(b, p): codes b, of probability p / 2^15.
+    template <class Bit>
+    bool tell(const Position& position, Bit bit) {
+        if (!is_strong() || same_[recent_] < least_same) return false;
+        const bool same = bit(position == value_, uint32_t{same_[recent_]});
+        is_denied_ = !same;
+        n_agree_ = same ? 3 : 0;
+        return same;
+    }
+
+    int32_t vertex() const { return found_; }
+
+    void reveal(size_t d, int64_t value) { n_agree_ += found_ >= 0 && value == value_[d] ? 1 : 0; }
 
     // corner: of the vertex, beyond an edge from a to b.
     void learn(int32_t v, int32_t corner, const Position& position, const Position& a, const Position& b) {
-        const bool right = exists() && n_agree_ >= 2;
-        if (exists()) run_ = right ? run_ + 1 : 0;
+        const bool right = found_ >= 0 && n_agree_ >= 2;
+        if (found_ >= 0 && strength_ == 3) learn_same(n_agree_ == 3);
+        if (found_ >= 0) run_ = right ? run_ + 1 : 0;
         corner_[static_cast<size_t>(v)] = corner;
         if (latest_.vertex >= 0) pair(latest_);
         latest_ = {v, shape_of(position, a, b), place_of(position)};
@@ -79,6 +94,7 @@ public:
 
 private:
     static constexpr int most_turns = 12;
+    static constexpr uint16_t least_same = 8192;
 
     // A vertex whose twin may still have to come from memory, -1 for none.
     struct Unpaired {
@@ -142,6 +158,12 @@ private:
         return mixed(mixed(0, position[i]), position[j]);
     }
 
+    void learn_same(bool same) {
+        uint16_t& p = same_[recent_];
+        p = static_cast<uint16_t>(p + (((same ? 32768 - 15 : 15) - p) >> 4));
+        recent_ = (2 * recent_ + (same ? 1 : 0)) % same_.size();
+    }
+
     // Up to mirror images.
     static uint32_t shape_of(const Position& position, const Position& a, const Position& b) {
         uint32_t h = 0;
@@ -164,12 +186,15 @@ private:
     std::vector<int32_t> twin_, corner_;
     Recall<int32_t> places_, shapes_;
     Unpaired latest_{-1, 0, 0};
+    std::array<uint16_t, 4> same_ = {16384, 16384, 16384, 16384};  // of 2^15, by the latest two answers
+    size_t recent_ = 0;
     size_t run_ = 0;  // sites in a row whose twin was right
 
     // Of the vertex under way.
     int32_t found_ = -1;
     Position value_{};
     size_t strength_ = 0, n_agree_ = 0;
+    bool is_denied_ = false;  // that all of it is right
 };
 
 }  // namespace ebz::positions
