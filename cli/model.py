@@ -24,7 +24,7 @@ Examples:
 """
 
 
-@click.group(epilog=EPILOG)
+@click.group(epilog=EPILOG, no_args_is_help=False)
 def model() -> None:
     """Make, show and certify models of the connectivity coder.
 

@@ -28,7 +28,7 @@ Examples:
 """
 
 
-@click.group(epilog=EPILOG)
+@click.group(epilog=EPILOG, no_args_is_help=False)
 def sample() -> None:
     """Make meshes to try things with.
 

@@ -134,3 +134,11 @@ def test_json_has_no_numbers_that_json_lacks():
 )
 def test_sizes_are_short(n_bytes, text):
     assert messages.human_size(n_bytes) == text
+
+
+@pytest.mark.parametrize("group", ["sample", "model"])
+def test_a_group_without_a_command_is_an_error_of_two_lines(sh, group):
+    result = sh(f"ebz {group}")
+    assert result.status == 1
+    assert result.stdout == b""
+    assert result.stderr.decode() == f"ebz: Missing command.\nTry 'ebz {group} --help'.\n"
