@@ -5,7 +5,6 @@
 #include "errors.hpp"
 #include "mixed_model.hpp"
 #include "special_coder.hpp"
-#include "specials.hpp"
 
 namespace ebz {
 
@@ -25,20 +24,19 @@ public:
           header_(header),
           word_(word),
           reverse_(header.n_symbols, header.n_closed, header.n_single),
-          special_coder_(n_specials, header.n_symbols),
-          known_specials_(word.specials),
+          specials_(n_specials, header.n_symbols, word.specials),
           model_(header.n_symbols) {}
 
     // Runs the reverse construction and codes what that does not determine.
     Reverse run() {
         for (Index position = header_.n_symbols - 1; position >= 0; --position) step(position);
-        if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
+        specials_.finish();
         return std::move(reverse_);
     }
 
 private:
     void step(Index position) {
-        int64_t meets = known_specials_.take(position);
+        int64_t meets = specials_.known(position);
         const bool determined = loops_.size() == 0 || position >= header_.n_symbols - header_.n_single;
         const uint8_t left_degree = loops_.size() == 0 ? 0 : reverse_.edge(reverse_.gate()).degree;
         const Symbol symbol = determined ? E : code(position, meets);
@@ -51,12 +49,8 @@ private:
 
     Symbol code(Index position, int64_t& meets) {
         WordView view(reverse_, loops_);
-        view.can_split |= special_coder_.any_left();
-        const Symbol symbol = model_.code(coder_, static_cast<Symbol>(word_.symbols[position]), view);
-        if (symbol != S) return symbol;
-        meets = special_coder_.code(coder_, reverse_, position, meets);
-        if (!Coder::encoding && meets != none) word_.specials.push_back({position, meets});
-        return symbol;
+        const auto symbol = static_cast<Symbol>(word_.symbols[position]);
+        return specials_.code_symbol(coder_, model_, view, reverse_, position, symbol, meets);
     }
 
     Coder& coder_;
@@ -64,8 +58,7 @@ private:
     Symbols& word_;
     Reverse reverse_;
     LoopStack loops_;
-    SpecialCoder special_coder_;
-    SpecialsReversed known_specials_;
+    SpecialsOfWord specials_;
     Model model_;
 };
 

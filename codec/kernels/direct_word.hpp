@@ -16,7 +16,6 @@
 #include "errors.hpp"
 #include "reverse.hpp"
 #include "special_coder.hpp"
-#include "specials.hpp"
 #include "word_priors.hpp"
 
 namespace ebz {
@@ -120,10 +119,8 @@ public:
         : coder_(coder),
           header_(header),
           symbols_(symbols.data()),
-          specials_(specials),
           reverse_(header.n_symbols, header.n_closed, header.n_single),
-          special_coder_(n_specials, header.n_symbols),
-          known_specials_(specials) {}
+          specials_(n_specials, header.n_symbols, specials) {}
 
     // Runs the reverse construction and codes what that does not determine.
     Reverse run() {
@@ -133,11 +130,11 @@ public:
         for (; position >= 0 && position >= n_coded; --position) context = apply(context, position, E, none);
         for (; position >= 0; --position) {
             coder_.symbol(rows_.at(context), static_cast<Symbol>(symbols_[position]), [&](auto symbol) {
-                const bool may_be_special = symbol == S && special_coder_.any_left();
+                const bool may_be_special = symbol == S && specials_.any_left();
                 context = apply(context, position, symbol, may_be_special ? special(position) : none);
             });
         }
-        if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
+        specials_.finish();
         return std::move(reverse_);
     }
 
@@ -151,19 +148,14 @@ private:
     }
 
     int64_t special(Index position) {
-        int64_t meets = Coder::encoding ? known_specials_.take(position) : none;
-        meets = special_coder_.code(coder_, reverse_, position, meets);
-        if (!Coder::encoding && meets != none) specials_.push_back({position, meets});
-        return meets;
+        return specials_.code(coder_, reverse_, position, Coder::encoding ? specials_.known(position) : none);
     }
 
     Coder coder_;
     const WordHeader& header_;
     uint8_t* const symbols_;
-    std::vector<SpecialS>& specials_;
     Reverse reverse_;
-    SpecialCoder special_coder_;
-    SpecialsReversed known_specials_;
+    SpecialsOfWord specials_;
     DirectRows rows_ = DirectRows::initial();
 };
 

@@ -7,10 +7,12 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <vector>
 
 #include "context_mixing.hpp"
 #include "errors.hpp"
 #include "reverse.hpp"
+#include "specials.hpp"
 
 namespace ebz {
 
@@ -109,6 +111,44 @@ private:
     Estimate special_, on_loop_, to_left_;
     std::array<FewIntegers, 2> steps_;
     FewIntegers far_;
+};
+
+// The special S of a word: known to an encoder, filled in by a decoder (by falling position).
+class SpecialsOfWord {
+public:
+    SpecialsOfWord(Index n_specials, Index n_symbols, std::vector<SpecialS>& specials)
+        : specials_(specials), known_(specials), coder_(n_specials, n_symbols) {}
+
+    bool any_left() const { return coder_.any_left(); }
+
+    void finish() const {
+        if (any_left()) throw Corrupt("the word has fewer special S than declared");
+    }
+
+    // What an encoder's S at `position` meets, none if it is not special; positions fall from call to call.
+    int64_t known(Index position) { return known_.take(position); }
+
+    template <class Coder>
+    int64_t code(Coder& coder, const Reverse& reverse, Index position, int64_t meets) {
+        meets = coder_.code(coder, reverse, position, meets);
+        if (!Coder::encoding && meets != none) specials_.push_back({position, meets});
+        return meets;
+    }
+
+    // The symbol at `position` by the model and, if it is an S, what that meets.
+    template <class Coder, class Model, class View>
+    Symbol code_symbol(Coder& coder, Model& model, View view, const Reverse& reverse, Index position, Symbol symbol,
+                       int64_t& meets) {
+        view.can_split |= any_left();
+        symbol = model.code(coder, symbol, view);
+        if (symbol == S) meets = code(coder, reverse, position, meets);
+        return symbol;
+    }
+
+private:
+    std::vector<SpecialS>& specials_;
+    SpecialsReversed known_;
+    SpecialCoder coder_;
 };
 
 }  // namespace ebz

@@ -2,7 +2,6 @@
 
 #include "../mixed_model.hpp"
 #include "../special_coder.hpp"
-#include "../specials.hpp"
 #include "mark_model.hpp"
 #include "polygons.hpp"
 
@@ -27,15 +26,14 @@ public:
           word_(word),
           reverse_(header.n_symbols, header.n_closed, header.n_single, PieceKind::polygons),
           loops_(PieceKind::polygons),
-          special_coder_(n_specials, header.n_symbols),
-          known_specials_(word.specials),
+          specials_(n_specials, header.n_symbols, word.specials),
           model_(header.n_symbols),
           mark_model_(header.n_symbols + header.n_closed),
           n_singles_left_(header.n_single) {}
 
     Reverse run() {
         for (Index position = header_.n_symbols - 1; position >= 0; --position) step(position);
-        if (special_coder_.any_left()) throw Corrupt("the word has fewer special S than declared");
+        specials_.finish();
         for (uint8_t& mark : std::span(word_.marks).subspan(header_.n_symbols)) {
             mark = first_mark_.code(coder_, mark == goes_on) ? goes_on : last;
         }
@@ -44,7 +42,7 @@ public:
 
 private:
     void step(Index position) {
-        int64_t meets = known_specials_.take(position);
+        int64_t meets = specials_.known(position);
         const bool in_polygon = code_mark(word_.marks[position]);
         const bool determined = loops_.size() == 0 || is_single_;
         const uint8_t left_degree = loops_.size() == 0 ? 0 : reverse_.edge(reverse_.gate()).degree;
@@ -86,12 +84,8 @@ private:
     Symbol code(Index position, bool in_polygon, int64_t& meets) {
         WordView view(reverse_, loops_);
         view.in_polygon = in_polygon;
-        view.can_split |= special_coder_.any_left();
-        const Symbol symbol = model_.code(coder_, static_cast<Symbol>(word_.symbols[position]), view);
-        if (symbol != S) return symbol;
-        meets = special_coder_.code(coder_, reverse_, position, meets);
-        if (!Coder::encoding && meets != none) word_.specials.push_back({position, meets});
-        return symbol;
+        const auto symbol = static_cast<Symbol>(word_.symbols[position]);
+        return specials_.code_symbol(coder_, model_, view, reverse_, position, symbol, meets);
     }
 
     Coder& coder_;
@@ -99,8 +93,7 @@ private:
     MarkedWord& word_;
     Reverse reverse_;
     LoopStack loops_;
-    SpecialCoder special_coder_;
-    SpecialsReversed known_specials_;
+    SpecialsOfWord specials_;
     Model model_;
     MarkModel mark_model_;
     bool is_single_ = false;  // the latest polygon is a component of its own, one of the last
