@@ -3,6 +3,7 @@
 
 #include "edgebreaker.hpp"
 #include "faces.hpp"
+#include "regions.hpp"
 #include "touching_fans.hpp"
 
 namespace ebz {
@@ -14,19 +15,15 @@ public:
     Encoder(const TriangleFaces& faces, Index n_vertices, std::span<const Index> opposite, const Fans& fans)
         : opposite_(opposite),
           vertex_(fans.vertex),
-          touching_(faces, fans, n_vertices),
           position_of_(opposite.size() / 3, unvisited),
-          marked_(fans.n_vertices),
-          leaving_(fans.n_vertices, none) {
-        for (Index h = 0; h < n_half_edges(); ++h) {
-            if (opposite_[h] == none) leaving_[vertex_[h]] = h;
-        }
+          regions_(faces, opposite, fans.vertex, fans.n_vertices),
+          touching_(faces, fans, n_vertices) {
         word_.symbols.reserve(position_of_.size());
         word_.gates.reserve(position_of_.size());
     }
 
     Word encode() {
-        const auto on_boundary = [&](Index c) { return leaving_[vertex_[c]]; };
+        const auto on_boundary = [&](Index c) { return regions_.leaving(vertex_[c]); };
         each_component(on_boundary, [&](Index h) {
             if (opposite_[h] == none && !is_single(h / 3)) open_component(h);
         });
@@ -42,12 +39,6 @@ public:
 private:
     static constexpr Index unvisited = -2, first_triangle = -1;
 
-    struct Gate {
-        Index half_edge;
-        Index position;  // of the S that left it, none for a component's first gate
-    };
-
-    Index n_half_edges() const { return static_cast<Index>(opposite_.size()); }
     bool is_new(Index h) const { return position_of_[h / 3] == unvisited; }
     bool is_single(Index t) const {
         return opposite_[3 * t] == none && opposite_[3 * t + 1] == none && opposite_[3 * t + 2] == none;
@@ -74,7 +65,7 @@ private:
     }
 
     void open_component(Index boundary) {
-        mark_boundary(vertex_[boundary]);
+        regions_.mark_boundary(vertex_[boundary]);
         run(boundary);
     }
 
@@ -83,7 +74,7 @@ private:
         position_of_[triangle] = first_triangle;
         word_.gates.push_back(corner);
         ++word_.n_closed;
-        for (Index c = 3 * triangle; c < 3 * triangle + 3; ++c) marked_[vertex_[c]] = true;
+        for (Index c = 3 * triangle; c < 3 * triangle + 3; ++c) regions_.mark(vertex_[c]);
         run(opposite_[corner]);
     }
 
@@ -92,32 +83,15 @@ private:
         emit(E, corner);
     }
 
-    // Everything on the boundary loop through v counts as part of the active loop.
-    void mark_boundary(Index v) {
-        while (!marked_[v]) {
-            marked_[v] = true;
-            v = vertex_[next(leaving_[v])];
-        }
-    }
-
     void run(Index first_gate) {
-        gates_.assign(1, {first_gate, none});
-        while (!gates_.empty()) {
-            const Gate gate = gates_.back();
-            gates_.pop_back();
-            if (is_new(gate.half_edge)) {
-                region(gate.half_edge);
-            } else {
-                special(gate);
-            }
-        }
+        regions_.leave(first_gate, none);
+        regions_.run([&](Index gate) { return is_new(gate); }, [&](Index gate) { region(gate); },
+                     [&](Index gate, Index position) { special(gate, position); });
     }
 
-    // The left loop of the S was reached from elsewhere: it was no loop of its own.
-    void special(const Gate& gate) {
-        const Index met = position_of_[gate.half_edge / 3];
-        const Index side = (gate.half_edge + 3 - gate_of_triangle(gate.half_edge / 3)) % 3;
-        word_.specials.push_back({gate.position, 2 * static_cast<int64_t>(met) + (side == 2)});
+    void special(Index gate, Index left_at) {
+        const Index met = position_of_[gate / 3], side = (gate + 3 - gate_of_triangle(gate / 3)) % 3;
+        word_.specials.push_back({left_at, 2 * static_cast<int64_t>(met) + (side == 2)});
     }
 
     Index gate_of_triangle(Index t) const {
@@ -129,13 +103,13 @@ private:
     void region(Index gate) {
         for (;;) {
             const Index right = next(gate), left = previous(gate), tip = vertex_[left];
-            if (!marked_[tip]) {
-                const bool on_hole = leaving_[tip] != none;
+            if (!regions_.is_marked(tip)) {
+                const bool on_hole = regions_.leaving(tip) != none;
                 if (on_hole) {
-                    mark_boundary(tip);
-                    gates_.push_back({opposite_[left], position()});
+                    regions_.mark_boundary(tip);
+                    regions_.leave(opposite_[left], position());
                 } else {
-                    marked_[tip] = true;
+                    regions_.mark(tip);
                 }
                 emit(on_hole ? S : C, gate);
                 gate = opposite_[right];
@@ -143,7 +117,7 @@ private:
             }
             const bool right_done = is_done(right), left_done = is_done(left);
             if (right_done && left_done) return emit(E, gate);
-            if (!right_done && !left_done) gates_.push_back({opposite_[left], position()});
+            if (!right_done && !left_done) regions_.leave(opposite_[left], position());
             emit(right_done ? R : left_done ? L : S, gate);
             gate = opposite_[right_done ? left : right];
         }
@@ -163,9 +137,7 @@ private:
     std::span<const Index> opposite_;
     std::span<const Index> vertex_;
     std::vector<Index> position_of_;  // of each triangle's symbol in the word
-    std::vector<bool> marked_;        // vertices on a loop or behind it
-    std::vector<Index> leaving_;      // the boundary half-edge that starts at a vertex
-    std::vector<Gate> gates_;
+    Regions<TriangleFaces> regions_;
     TouchingFans touching_;
     Word word_;
 };

@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "../pieces.hpp"
+#include "../regions.hpp"
 #include "../touching_fans.hpp"
 #include "polygons.hpp"
 
@@ -18,16 +19,11 @@ public:
           vertex_(pieces.fans.vertex),
           removed_(faces.n_faces()),
           output_of_(opposite_.size()),
-          marked_(pieces.fans.n_vertices),
-          leaving_(pieces.fans.n_vertices, none),
-          touching_(faces, pieces.fans, n_vertices) {
-        for (Index h = 0; h < faces_.n_corners(); ++h) {
-            if (opposite_[h] == none) leaving_[vertex_[h]] = h;
-        }
-    }
+          regions_(faces, pieces.opposite, pieces.fans.vertex, pieces.fans.n_vertices),
+          touching_(faces, pieces.fans, n_vertices) {}
 
     EncodedPolygons encode() {
-        const auto on_boundary = [&](Index c) { return leaving_[vertex_[c]]; };
+        const auto on_boundary = [&](Index c) { return regions_.leaving(vertex_[c]); };
         each_component(on_boundary, [&](Index h) {
             if (opposite_[h] == none && !is_single(faces_.face(h))) open_component(h);
         });
@@ -43,10 +39,6 @@ public:
     }
 
 private:
-    struct Gate {
-        Index half_edge;
-        Index position;  // of the S that left it, none for a component's first gate
-    };
     enum Side : Index { gate_side, right_side, left_side };
 
     Word& word() { return encoded_.word; }
@@ -80,8 +72,8 @@ private:
     }
 
     void open_component(Index boundary) {
-        mark_boundary(vertex_[boundary]);
-        gates_.assign(1, {boundary, none});
+        regions_.mark_boundary(vertex_[boundary]);
+        regions_.leave(boundary, none);
         run();
     }
 
@@ -91,12 +83,11 @@ private:
         const Index size = faces_.size(face);
         removed_[face] = true;
         ++word().n_closed;
-        for (const Index c : {gate, right, left}) marked_[vertex_[c]] = true;
+        for (const Index c : {gate, right, left}) regions_.mark(vertex_[c]);
         add_triangle(gate, right, left, size > 3 ? gate_side : none);
         first_marks_.push_back(size > 3 ? goes_on : last);
         put(right, right_side);
         put(left, left_side);
-        gates_.clear();
         if (size > 3) {
             region(rest_of_polygon(right, gate, size - 1));
         } else {
@@ -106,30 +97,15 @@ private:
         run();
     }
 
-    // Everything on the boundary loop through v counts as part of the active loop.
-    void mark_boundary(Index v) {
-        while (!marked_[v]) {
-            marked_[v] = true;
-            v = vertex_[faces_.next(leaving_[v])];
-        }
-    }
-
     void run() {
-        while (!gates_.empty()) {
-            const Gate gate = gates_.back();
-            gates_.pop_back();
-            if (is_new(gate.half_edge)) {
-                region(gate.half_edge);
-            } else {
-                special(gate);
-            }
-        }
+        regions_.run([&](Index gate) { return is_new(gate); }, [&](Index gate) { region(gate); },
+                     [&](Index gate, Index position) { special(gate, position); });
     }
 
-    void special(const Gate& gate) {
-        const Index met = output_of_[gate.half_edge];
+    void special(Index gate, Index left_at) {
+        const Index met = output_of_[gate];
         const int64_t triangle = met / 3 - word().n_closed;
-        word().specials.push_back({gate.position, 2 * triangle + (met % 3 == left_side)});
+        word().specials.push_back({left_at, 2 * triangle + (met % 3 == left_side)});
     }
 
     // Removes polygons until an E.
@@ -162,14 +138,14 @@ private:
     // The symbol of a triangle with the left edge `left`; S leaves the gate across it on the stack.
     Symbol remove(Index left, bool right_done) {
         const Index tip = vertex_[left];
-        if (!marked_[tip] && leaving_[tip] == none) {
-            marked_[tip] = true;
+        if (!regions_.is_marked(tip) && regions_.leaving(tip) == none) {
+            regions_.mark(tip);
             return C;
         }
-        if (marked_[tip] && is_done(left)) return right_done ? E : L;
-        if (marked_[tip] && right_done) return R;
-        mark_boundary(tip);
-        gates_.push_back({opposite_[left], position()});
+        if (regions_.is_marked(tip) && is_done(left)) return right_done ? E : L;
+        if (regions_.is_marked(tip) && right_done) return R;
+        regions_.mark_boundary(tip);
+        regions_.leave(opposite_[left], position());
         return S;
     }
 
@@ -203,9 +179,7 @@ private:
     std::span<const Index> opposite_, vertex_;
     std::vector<bool> removed_;     // faces
     std::vector<Index> output_of_;  // the half-edge of a triangle that each half-edge becomes
-    std::vector<bool> marked_;      // vertices on a loop or behind it
-    std::vector<Index> leaving_;    // the boundary half-edge that starts at a vertex
-    std::vector<Gate> gates_;
+    Regions<PolygonFaces> regions_;
     TouchingFans touching_;
     std::vector<uint8_t> first_marks_;
     Index rest_ = none;  // the half-edge of the output across which a polygon goes on
