@@ -12,7 +12,7 @@ from ebz.codec.attributes.octahedral import NORMAL_BITS
 from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.attributes.rounding import require_names
 from ebz.codec.connectivity import OutputOrder
-from ebz.codec.errors import OptionError
+from ebz.codec.errors import MeshError, OptionError
 from ebz.codec.fitting import Precision
 from ebz.codec.lattice import MAX_BITS, GridLattice
 from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE, LEVELS
@@ -135,6 +135,8 @@ def compress(
     compress(decompress(data)) gives the same bytes with the same options.  Raises OptionError and
     MeshError.
     """
+    if not isinstance(mesh, Mesh | Scene):
+        raise MeshError(f"{type(mesh).__name__} is neither a Mesh nor a Scene")
     lattice = None if grid is None else _grid(grid)
     _check_options(bits, max_error, lattice, level)
     table = None if model is None and not embed_model else load_model(model)
@@ -230,7 +232,7 @@ def _attribute_precision(
     for name, n in bits.items():
         if name in error:
             raise OptionError(f"bits and error of attribute {name!r} exclude each other")
-        if not 1 <= n <= MAX_BITS:
+        if n not in range(1, MAX_BITS + 1):
             raise OptionError(f"bits of attribute {name!r} are {n}, not 1 to {MAX_BITS}")
     for name, limit in error.items():
         if not (math.isfinite(limit) and limit >= 0):
@@ -245,7 +247,7 @@ def _check_options(
 ) -> None:
     if sum(option is not None for option in (bits, max_error, grid)) > 1:
         raise OptionError("bits, max_error and grid exclude each other")
-    if bits is not None and not 1 <= bits <= MAX_BITS:
+    if bits is not None and bits not in range(1, MAX_BITS + 1):
         raise OptionError(f"bits is {bits}, not 1 to {MAX_BITS}")
     if max_error is not None and not (math.isfinite(max_error) and max_error >= 0):
         raise OptionError(f"max_error is {max_error}, not a finite number of at least 0")

@@ -111,7 +111,10 @@ def _vertices(values: npt.ArrayLike) -> npt.NDArray[Any]:
 def _faces(
     values: npt.ArrayLike, offsets: npt.NDArray[Any] | None, n_vertices: int
 ) -> tuple[npt.NDArray[Any], npt.NDArray[np.int64] | None]:
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise MeshError("faces: rows of several lengths need face_offsets") from None
     if array.size == 0 and array.ndim < 2 and offsets is None:
         array = np.zeros((0, 3), np.int32)
     if array.ndim != (2 if offsets is None else 1):

@@ -23,6 +23,8 @@ MESH = random_triangulation(300, seed=7)
         ({"bits": 0}, "bits is 0, not 1 to 30"),
         ({"bits": 31}, "bits is 31, not 1 to 30"),
         ({"bits": -1}, "bits is -1"),
+        ({"bits": 7.5}, "bits is 7.5, not 1 to 30"),
+        ({"bits": "7"}, "bits is 7, not 1 to 30"),
         ({"max_error": -1.0}, "max_error is -1.0"),
         ({"max_error": float("nan")}, "max_error is nan"),
         ({"max_error": float("inf")}, "max_error is inf"),
@@ -36,6 +38,17 @@ MESH = random_triangulation(300, seed=7)
 def test_options_out_of_range_are_refused(options, message):
     with pytest.raises(ebz.OptionError, match=message):
         ebz.compress(MESH, **options)
+
+
+@pytest.mark.parametrize("thing", [None, (MESH.vertices, MESH.faces)], ids=["None", "tuple"])
+def test_what_is_no_mesh_is_refused_by_its_type(thing):
+    with pytest.raises(ebz.MeshError, match=rf"^{type(thing).__name__} is neither a Mesh nor"):
+        ebz.compress(thing)
+
+
+def test_faces_of_several_sizes_need_offsets():
+    with pytest.raises(ebz.MeshError, match=r"^faces: rows of several lengths need face_offsets$"):
+        ebz.Mesh(MESH.vertices, [[0, 1, 2], [0, 1, 2, 3]])
 
 
 def test_option_errors_are_value_errors_too():
