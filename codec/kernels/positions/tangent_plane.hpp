@@ -46,7 +46,7 @@ public:
         return gain_with_ < gain_without_ ? slid_ : 0.0f;
     }
 
-    // moved: the vertex from where it was expected in the end without this fit.
+    // residual: of all axes, from the prediction; moved: from where the fits begin.
     void learn(Lanes residual, Lanes moved, float weight) {
         const float without = std::abs(residual[last_]), with = std::abs(residual[last_] - slid_);
         const float scale = 0.005f / (1.0f + with + without);
