@@ -13,7 +13,8 @@ from ebz.codec.positions import Coding, Method
 from ebz.codec.sample import glued_grid
 from tests.connectivity_check import same_mesh
 from tests.meshes import face_lists, rngs
-from tests.oracles import medium
+from tests.oracles import light, medium
+from tests.surgery import Faces
 
 INTEGER_METHODS = (Method.FAST, Method.MEDIUM, Method.LIGHT, Method.STRONG)
 # Those of 32 bits, and the widest values that each of them codes.
@@ -24,7 +25,10 @@ WIDEST = {
     Method.STRONG: 2**40,
 }
 
+TWINS = {Method.MEDIUM: medium, Method.LIGHT: light}
+
 Values = npt.NDArray[np.int64]
+Points = npt.NDArray[np.int64]
 
 
 @st.composite
@@ -91,32 +95,71 @@ def test_any_bytes_decode_to_the_same_on_both_instruction_sets(along, method, da
         _kernels.forbid_extensions(False)
 
 
-def read_by_twin(stream: bytes, surface: Surface, n: int) -> Values:
+def read_by_twin(stream: bytes, surface: Surface, n: int, method: Method) -> Values:
     corners = surface.opposite.tolist(), surface.vertex.tolist()
-    return np.array(medium.Decoder(stream, *corners, n).decode(), np.int64).reshape(-1)
+    return np.array(TWINS[method].Decoder(stream, *corners, n).decode(), np.int64).reshape(-1)
 
 
 @settings(deadline=None)
-@given(surfaces(), st.data())
-def test_a_twin_of_the_medium_method_reads_the_same(along, data):
+@given(surfaces(), st.sampled_from(list(TWINS)), st.data())
+def test_a_twin_reads_the_same(along, method, data):
     surface, n = along
-    written = values(n, WIDEST[Method.MEDIUM]).map(
-        lambda coordinates: encode(surface, n, coordinates, Method.MEDIUM)
+    written = values(n, WIDEST[method]).map(
+        lambda coordinates: encode(surface, n, coordinates, method)
     )
     stream = data.draw(written | st.binary(max_size=200))
-    read = decode(stream, surface, n, Method.MEDIUM)
-    assert np.array_equal(read_by_twin(stream, surface, n), read)
+    read = decode(stream, surface, n, method)
+    assert np.array_equal(read_by_twin(stream, surface, n, method), read)
 
 
-@pytest.mark.parametrize("height", [30, 3000])
-def test_a_twin_of_the_medium_method_reads_a_long_stream(height):
+def waves(height: int) -> tuple[Faces, Points]:
     row, column, faces = glued_grid(20, 25, "open", "join")
-    surface, order = traverse(faces, len(row))
-    x, y = row[order.vertices], column[order.vertices]
-    heights = height * np.sin(x / 5) * np.cos(y / 4)
-    coordinates = np.stack([40 * x, 40 * y, heights.round()], axis=1).astype(np.int64).reshape(-1)
-    stream = encode(surface, len(x), coordinates, Method.MEDIUM)
-    assert np.array_equal(read_by_twin(stream, surface, len(x)), coordinates)
+    heights = (height * np.sin(row / 5) * np.cos(column / 4)).round().astype(np.int64)
+    return faces, np.stack([40 * row, 40 * column, heights], axis=1)
+
+
+def noise(widest: int) -> tuple[Faces, Points]:
+    faces, points = waves(0)
+    return faces, np.random.default_rng(3).integers(-widest, widest, points.shape)
+
+
+def halves(step: int) -> tuple[Faces, Points]:
+    """Mirrored, with some of the heights multiples of 50."""
+    row, column, faces = glued_grid(20, 30, "open", "join")
+    rng = np.random.default_rng(5)
+    heights = rng.integers(-step, step, (21, 16))
+    heights = np.where(rng.random(heights.shape) < 0.5, heights, heights // 50 * 50)
+    inward = np.minimum(column, 30 - column)
+    z = heights[row, inward]
+    x = np.where(column > 15, -1, 1) * (50 * inward + z // 3)
+    return faces, np.stack([x, 37 * row, z], axis=1)
+
+
+def parts(offset: int) -> tuple[Faces, Points]:
+    """The same one at many places, each third one mirrored."""
+    row, column, faces = glued_grid(4, 5, "open", "open")
+    rng = np.random.default_rng(7)
+    part = np.stack([40 * row, 40 * column, 0 * row], axis=1) + rng.integers(-30, 30, (30, 3))
+    turned = np.where(np.arange(20)[:, None] % 3 == 1, [[1, -1, 1]], [[1, 1, 1]])
+    places = rng.integers(-2000, 2000, (20, 1, 3)) * [1, 1, 0] + offset
+    all_faces = faces + 30 * np.arange(20)[:, None, None]
+    return all_faces.reshape(-1, 3), (part * turned[:, None] + places).reshape(-1, 3)
+
+
+LONG = [waves(30), waves(3000), noise(5000), halves(5), halves(600), halves(20000), parts(0)]
+WIDE = [noise(2**39), parts(2**39)]
+
+
+@pytest.mark.parametrize(
+    ("method", "faces", "points"),
+    [(method, *mesh) for method in TWINS for mesh in LONG]
+    + [(Method.LIGHT, *mesh) for mesh in WIDE],
+)
+def test_a_twin_reads_a_long_stream(method, faces, points):
+    surface, order = traverse(faces, len(points))
+    coordinates = points[order.vertices].reshape(-1)
+    stream = encode(surface, len(points), coordinates, method)
+    assert np.array_equal(read_by_twin(stream, surface, len(points), method), coordinates)
 
 
 @pytest.mark.parametrize("method", [Method.FAST, Method.MEDIUM])

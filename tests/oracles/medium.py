@@ -1,81 +1,20 @@
 """The medium method once more, by sections 9.6 and 9.8 of FORMAT.md, an axis at a time."""
 
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-F = np.float32
+from tests.oracles.floats import F, octaves, pattern, rounded, signed, within
+from tests.oracles.gates import Gates, Step
+from tests.oracles.streams import Row, Streams
+
 FIRST_CELL = [0, -11, -7, -5, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8]
 CELL_DIGITS = [0, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 2]
 
 
-def signed(x: int) -> int:
-    return (x + 2**31) % 2**32 - 2**31
-
-
-def pattern(x: np.float32) -> int:
-    return int(x.view(np.int32))
-
-
-def octaves(x: np.float32) -> int:
-    return (pattern(x + F(0.125)) >> 22) - 248
-
-
-def within(x: np.float32, low: float, high: float) -> np.float32:
-    return F(min(max(x, F(low)), F(high)))
-
-
 def fifteenths(x: np.float32) -> int:
     return int(within(x, -7.5, 7) + F(7.5))
-
-
-class Row:
-    """One of section 9.6, or one that starts from the mix its first symbol was coded with."""
-
-    def __init__(self, *, from_mix: bool) -> None:
-        self.starts = [2048 * i for i in range(17)]
-        self.n, self.from_mix = 0, from_mix
-
-    def learn(self, symbol: int, mix: list[int]) -> None:
-        if self.from_mix:
-            bounds, first = [2, 6, 20, 63, 255], 2
-            if self.n == 0:
-                self.starts[1:16] = [m + ((2048 * i - m) >> 5) for i, m in enumerate(mix)][1:16]
-        else:
-            bounds, first = [6, 20, 63], 3
-        rate = first + sum(self.n >= bound for bound in bounds)
-        for i in range(1, 16):
-            aim = 8 * i + (2**15 - 128 if i > symbol else 0)
-            self.starts[i] += (aim - self.starts[i]) >> rate
-        self.n += 1
-
-
-class Streams:
-    """Three states and their words, and plain bits."""
-
-    def __init__(self, data: bytes) -> None:
-        size = min(int.from_bytes(data[:4], "little"), max(len(data) - 4, 0))
-        self.words = data[4 : 4 + size]
-        self.states = [int.from_bytes(self.words[7 * i : 7 * i + 7], "little") for i in range(3)]
-        self.at = 21
-        self.plain, self.bit = int.from_bytes(data[4 + size :], "little"), 0
-
-    def symbol(self, axis: int, starts: list[int]) -> int:
-        state = self.states[axis]
-        slot = state % 2**15
-        symbol = next(s for s in range(16) if starts[s] <= slot < starts[s + 1])
-        state = (starts[symbol + 1] - starts[symbol]) * (state >> 15) + slot - starts[symbol]
-        if state < 2**24:
-            state = state << 32 | int.from_bytes(self.words[self.at : self.at + 4], "little")
-            self.at += 4
-        self.states[axis] = state
-        return symbol
-
-    def bits(self, n: int) -> int:
-        self.bit += n
-        return self.plain >> (self.bit - n) & (2**n - 1)
 
 
 @dataclass
@@ -103,7 +42,7 @@ class Residuals:
         shifts = [max(0, octaves(axis.scale) - 10) >> 1 for axis in known]
         rows = [self._rows(d, known[d], shifts[d]) for d in range(3)]
         mixes = [self._mix(of_axis) for of_axis in rows]
-        symbols = [self.streams.symbol(d, mixes[d]) for d in range(3)]
+        symbols = [self.streams.mixed(d, mixes[d]) for d in range(3)]
         if known[0].kind is None:
             self.n_sites += 1
             if self.n_sites % 4 == 0:
@@ -152,9 +91,8 @@ class Residuals:
         if symbol == 14:
             return 0
         level = octaves(x.scale) - 2 * by
-        row = self.far.setdefault((d, level), Row(from_mix=False))
-        token = self.streams.symbol(d, row.starts)
-        row.learn(token, row.starts)
+        row = self.far.setdefault((d, level), Row())
+        token = self.streams.symbol(d, row)
         if token == 15:
             return signed(self.streams.bits(min(self.streams.bits(6), 32)))
         negative = self.streams.bits(1)
@@ -171,74 +109,25 @@ class Decoder:
         self, data: bytes, opposite: Sequence[int], vertex: Sequence[int], n_sites: int
     ) -> None:
         self.residuals = Residuals(Streams(data))
-        self.opposite, self.vertex = opposite, vertex
+        self.gates = Gates(opposite, vertex, n_sites)
         self.at: list[list[int]] = [[0, 0, 0]] * n_sites
         self.residual = [[0, 0, 0]] * n_sites
-        self.known = [False] * n_sites
-        self.first_gate: dict[int, int] = {}
-        self.visited: set[int] = set()
-        self.queues: tuple[deque[int], deque[int]] = deque(), deque()
-        self.stack: list[int] = []
-        self.latest = [0, 0, 0]
         self.steps = [[0, 0, 0], [0, 0, 0]]
         self.lead = [F(0)] * 3
 
     def decode(self) -> list[list[int]]:
-        for face in range(len(self.vertex) // 3):
-            if face not in self.visited:
-                self._component(3 * face)
-        for v in range(len(self.at)):
-            if not self.known[v]:
-                self._step(v, 0)
+        for to in self.gates.sites():
+            if isinstance(to, Step):
+                self._step(to)
+            else:
+                self._predict(to.site, to.g, to.h)
         return self.at
 
-    def _component(self, gate: int) -> None:
-        for i in range(3):
-            v = self.vertex[gate + i]
-            if self.known[v]:
-                self.latest = self.at[v]
-            else:
-                self._step(v, min(i, 1))
-        self._cross(gate)
-        self._visit_from(gate)
-        while self.queues[0] or self.queues[1]:
-            h = (self.queues[1] or self.queues[0]).popleft()
-            tip = self.vertex[previous(h)]
-            if h // 3 in self.visited:
-                continue
-            if self.known[tip]:
-                self._visit_from(h)
-                continue
-            g = self.first_gate[tip]
-            self._predict(tip, g, h)
-            self._visit_from(h)
-            self._visit_from(g)
-
-    def _cross(self, h: int) -> None:
-        g = self.opposite[h]
-        if g < 0 or g // 3 in self.visited:
-            return
-        tip = self.vertex[previous(g)]
-        if self.known[tip]:
-            self.stack.append(g)
-        else:
-            self.queues[tip in self.first_gate].append(g)
-            self.first_gate.setdefault(tip, g)
-
-    def _visit_from(self, h: int) -> None:
-        self.stack.append(h)
-        while self.stack:
-            h = self.stack.pop()
-            if h // 3 not in self.visited:
-                self.visited.add(h // 3)
-                self._cross(following(h))
-                self._cross(previous(h))
-
-    def _step(self, v: int, kind: int) -> None:
-        e = self.residuals.decode([Known(F(size), kind=kind) for size in self.steps[kind]])
-        self.steps[kind] = [abs(x) for x in e]
-        self.latest = self.at[v] = [signed(x + y) for x, y in zip(self.latest, e, strict=True)]
-        self.known[v] = True
+    def _step(self, to: Step) -> None:
+        e = self.residuals.decode([Known(F(size), kind=to.kind) for size in self.steps[to.kind]])
+        self.steps[to.kind] = [abs(x) for x in e]
+        latest = [0, 0, 0] if to.latest is None else self.at[to.latest]
+        self.at[to.site] = [signed(x + y) for x, y in zip(latest, e, strict=True)]
 
     def _predict(self, v: int, g: int, h: int) -> None:
         gates = [self._sites(g), self._sites(h)]
@@ -251,8 +140,7 @@ class Decoder:
             plain.append(signed(origin + (apart >> 1)))
             smooth.append(F(apart) * F(0.3) + F(signed(a + b + c + e - 4 * origin)) * F(0.1))
             is_plain = self.lead[d] <= 0
-            nearest = int(smooth[d] + (F(-0.5) if np.signbit(smooth[d]) else F(0.5)))
-            base.append(plain[d] if is_plain else signed(origin + nearest))
+            base.append(plain[d] if is_plain else signed(origin + rounded(smooth[d])))
             near = min((signed(x - base[d]) for x in (a, b, c, e)), key=lambda x: abs(F(x)))
             ra, rb, rc, re = (F(self.residual[s][d]) for s in (*gates[0][:2], *gates[1][:2]))
             size = ((abs(ra) + abs(rb)) + (abs(rc) + abs(re))) * F(0.25)
@@ -269,7 +157,6 @@ class Decoder:
             )
         self.residual[v] = self.residuals.decode(known)
         self.at[v] = [signed(x + y) for x, y in zip(base, self.residual[v], strict=True)]
-        self.known[v] = True
         for d, x in enumerate(self.at[v]):
             from_plain = abs(F(signed(x - plain[d])))
             from_smooth = abs(F(signed(x - first[d])) - smooth[d])
@@ -277,13 +164,6 @@ class Decoder:
             self.lead[d] += (lead - self.lead[d]) * F(0.01)
 
     def _sites(self, gate: int) -> list[int]:
-        apex = previous(self.opposite[gate])
-        return [self.vertex[c] for c in (gate, following(gate), apex)]
-
-
-def following(c: int) -> int:
-    return c - 2 if c % 3 == 2 else c + 1
-
-
-def previous(c: int) -> int:
-    return c + 2 if c % 3 == 0 else c - 1
+        beyond = self.gates.beyond(gate)
+        assert beyond is not None
+        return [*self.gates.ends(gate), beyond]

@@ -136,12 +136,8 @@ private:
             if (c == first) break;
         }
         // From a boundary the other way.
-        for (int i = 0; c < 0 && i < most_turns; ++i) {
-            const int32_t edge = opposite_[i == 0 ? first : c];
-            if (edge < 0) break;
-            c = next(edge);
-            look(c);
-        }
+        if (c < 0)
+            for (int32_t i = 0, back = first; i < most_turns && opposite_[back] >= 0; ++i) look(back = next(opposite_[back]));
         if (flipped >= 0 && flipped != o) return {flipped, true};
         return {same != o ? same : -1, false};
     }

@@ -1,0 +1,70 @@
+"""Least squares once more, by sections 9.3 and 9.5 of FORMAT.md: those of three inputs."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tests.oracles.floats import F
+
+D = 3
+RIDGE = 50.0
+FORGET = F(1) - F(32) / F(2000)
+WIDEST = 10000.0
+
+
+class Fit:
+    """Sums are kept for each of three axes."""
+
+    def __init__(self, prior: Sequence[float]) -> None:
+        self.prior = [float(F(w)) for w in prior]
+        self.weights = [F(w) for w in prior]
+        self.a = np.zeros((D, D, 3), F)
+        self.b = np.zeros((D, 3), F)
+        self.n, self.due = 0, 1
+
+    def output(self, x: Sequence[np.float32]) -> np.float32:
+        w = self.weights
+        return (w[0] * x[0] + w[1] * x[1]) + w[2] * x[2]
+
+    def add(self, axis: int, x: Sequence[np.float32], y: np.float32, weight: np.float32) -> None:
+        for i in range(D):
+            z = weight * x[i]
+            for j in range(i + 1):
+                self.a[i, j, axis] += z * x[j]
+            self.b[i, axis] += z * y
+
+    def tick(self) -> None:
+        self.n += 1
+        if self.n < self.due:
+            return
+        self._solve()
+        self.due = self.n + (1 if self.n < 4 else self.n // 4 if self.n < 128 else 32)
+        if self.n >= 128:
+            self.a *= FORGET
+            self.b *= FORGET
+
+    def _solve(self) -> None:
+        a, b = over_axes(self.a), over_axes(self.b)
+        lower, d, w = np.eye(D), np.zeros(D), np.zeros(D)
+        for i in range(D):
+            w[i] = b[i] + RIDGE * self.prior[i]
+            for j in range(i + 1):
+                s = a[i, j] + (RIDGE if i == j else 0)
+                for k in range(j):
+                    s -= lower[i, k] * lower[j, k] * d[k]
+                if i == j:
+                    d[i] = s if s > 0.5 * RIDGE else 0.5 * RIDGE
+                else:
+                    lower[i, j] = s / d[j]
+            for k in range(i):
+                w[i] -= lower[i, k] * w[k]
+        w /= d
+        for i in reversed(range(D)):
+            for k in range(i + 1, D):
+                w[i] -= lower[k, i] * w[k]
+        self.weights = [F(min(max(x, -WIDEST), WIDEST)) for x in w]
+
+
+def over_axes(sums: np.ndarray) -> np.ndarray:
+    of = sums.astype(np.float64)
+    return (of[..., 0] + of[..., 1]) + of[..., 2]
