@@ -1,6 +1,7 @@
 // Codes all vertices in order of traversal, axis by axis, with every model there is.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -56,7 +57,7 @@ void code_strong(Coder& coder, const Surface& mesh, AxisOrder order, std::span<i
             continue;
         }
         predictor.predict(s, p);
-        if (twins) twins->start(v, {s.gates.data(), static_cast<size_t>(s.n_parallelograms)}, sites);
+        if (twins) twins->start(v, {s.gates.data(), std::min<size_t>(static_cast<size_t>(s.n_parallelograms), 2)}, sites);
         axes.begin(s, p, twins.get());
         for (size_t turn = 0; turn < 3; ++turn) {
             const size_t d = p.axes[turn];
