@@ -19,7 +19,7 @@ from ebz.codec.attributes.rounding import rounded
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.elements import Element
-from ebz.codec.encoded import EncodedMesh, Streams
+from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.fitting import LOSSLESS, Precision
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
@@ -98,13 +98,16 @@ def encode(
     coded = positions.encode(surface, points, n_along, stored.dtype, position_method(level))
     exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
     report("attributes", 3, N_STAGES)
-    keep_rotation, fast = keeps_rotation(mesh.face_attributes), has_fast_attributes(level)
+    keep_rotation = keeps_rotation(mesh.face_attributes)
     split = welding.split(surface, arrangement.splits, len(stored))
     kept = source_order.kept(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
     )
     placed = lattice.taken(stored, order.vertices)
     sites = Sites(surface, split.vertex, placed, split.site)
+    of_vertices, of_faces, of_corners = _encode_attributes(
+        mesh, order, sites, attribute_precision, fast=has_fast_attributes(level)
+    )
     encoded = EncodedMesh(
         dtype=stored.dtype,
         counts=word.counts,
@@ -125,21 +128,9 @@ def encode(
             exception_values=_encode_values(exact),
             order=_encode_order(kept, surface, split, points.integers),
         ),
-        vertex_attributes=coding.encode(
-            mesh.vertex_attributes, order.vertices, sites.by_vertex, attribute_precision, fast=fast
-        )
-        if mesh.vertex_attributes
-        else [],
-        face_attributes=coding.encode(
-            mesh.face_attributes, order.faces, sites.by_face, attribute_precision, fast=fast
-        )
-        if mesh.face_attributes
-        else [],
-        corner_attributes=corners.encode(
-            mesh.corner_attributes, order.all_corners, sites, attribute_precision, fast=fast
-        )
-        if mesh.corner_attributes
-        else [],
+        vertex_attributes=of_vertices,
+        face_attributes=of_faces,
+        corner_attributes=of_corners,
         elements=rows.encode(mesh.elements, order.number_of, attribute_precision, sites),
         metadata=metadata.encode(mesh.metadata),
     )
@@ -196,6 +187,20 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
             f"{encoded.place('digest')}: the digest of the decoded mesh is not the one stored"
         )
     return Decoded(mesh, word, surface)
+
+
+def _encode_attributes(
+    mesh: Mesh, order: OutputOrder, sites: Sites, precision: AttributePrecision, *, fast: bool
+) -> tuple[list[EncodedArray], list[EncodedArray], list[EncodedArray]]:
+    """Those of vertices, faces and corners; nothing is worked out for those there are none of."""
+    of_vertices, of_faces, of_corners = [], [], []
+    if values := mesh.vertex_attributes:
+        of_vertices = coding.encode(values, order.vertices, sites.by_vertex, precision, fast=fast)
+    if values := mesh.face_attributes:
+        of_faces = coding.encode(values, order.faces, sites.by_face, precision, fast=fast)
+    if values := mesh.corner_attributes:
+        of_corners = corners.encode(values, order.all_corners, sites, precision, fast=fast)
+    return of_vertices, of_faces, of_corners
 
 
 def _encode_order(
