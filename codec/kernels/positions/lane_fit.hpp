@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "lanes.hpp"
+#include "least_squares.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
@@ -33,16 +34,15 @@ public:
         }
         if (++n_ < due_) return;
         solve();
-        due_ = n_ + (n_ < 4 ? 1 : n_ < 4 * interval ? n_ / 4 : interval);
-        if (n_ >= 4 * interval) forget();
+        due_ = n_ + least_squares_interval(n_);
+        if (n_ >= 128) forget();
     }
 
 private:
-    static constexpr int interval = 32, window = 2000;
     static constexpr double ridge = 50, largest = 1e4;
 
     void forget() {
-        constexpr float keep = 1 - float{interval} / window;
+        constexpr float keep = 1 - 32.0f / 2000;
         for (Inputs& row : a_)
             for (Lanes& x : row) x *= keep;
         for (Lanes& x : b_) x *= keep;
@@ -50,25 +50,16 @@ private:
 
     static double over_axes(Lanes x) { return (double{x[0]} + double{x[1]}) + double{x[2]}; }
 
-    // Minimises sum weight (y - w x)^2 + ridge |w - prior|^2 by Cholesky's L D L' factorisation.
     void solve() {
-        std::array<std::array<double, D>, D> l;
-        std::array<double, D> d, w;
+        std::array<std::array<double, D>, D> a{};
+        std::array<double, D> b, prior;
         for (size_t i = 0; i < D; ++i) {
-            w[i] = over_axes(b_[i]) + ridge * double{prior_[i]};
-            for (size_t j = 0; j <= i; ++j) {
-                double sum = over_axes(a_[i][j]) + (i == j ? ridge : 0.0);
-                for (size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
-                if (i == j) d[i] = sum > 0.5 * ridge ? sum : 0.5 * ridge;  // positive up to rounding
-                else l[i][j] = sum / d[j];
-            }
-            for (size_t k = 0; k < i; ++k) w[i] -= l[i][k] * w[k];
+            for (size_t j = 0; j <= i; ++j) a[i][j] = over_axes(a_[i][j]);
+            b[i] = over_axes(b_[i]);
+            prior[i] = double{prior_[i]};
         }
-        for (size_t i = 0; i < D; ++i) w[i] /= d[i];
-        for (size_t i = D; i-- > 0;) {
-            for (size_t k = i + 1; k < D; ++k) w[i] -= l[k][i] * w[k];
-            w_[i] = static_cast<float>(std::clamp(w[i], -largest, largest));
-        }
+        const std::array<double, D> w = ridge_solution(a, b, prior, ridge);
+        for (size_t i = 0; i < D; ++i) w_[i] = static_cast<float>(std::clamp(w[i], -largest, largest));
     }
 
     std::array<Inputs, D> a_;

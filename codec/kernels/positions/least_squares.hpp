@@ -6,6 +6,32 @@
 
 namespace ebz::positions {
 
+// The w that minimises sum weight (y - w x)^2 + ridge |w - prior|^2, by Cholesky's L D L' factorisation.
+// a: sums of weight x[i] x[j] for j <= i; b: of weight x[i] y.
+template <size_t D>
+std::array<double, D> ridge_solution(const std::array<std::array<double, D>, D>& a, const std::array<double, D>& b,
+                                     const std::array<double, D>& prior, double ridge) {
+    std::array<std::array<double, D>, D> l;
+    std::array<double, D> d, w;
+    for (size_t i = 0; i < D; ++i) {
+        w[i] = b[i] + ridge * prior[i];
+        for (size_t j = 0; j <= i; ++j) {
+            double sum = a[i][j] + (i == j ? ridge : 0.0);
+            for (size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
+            if (i == j) d[i] = sum > 0.5 * ridge ? sum : 0.5 * ridge;  // positive up to rounding
+            else l[i][j] = sum / d[j];
+        }
+        for (size_t k = 0; k < i; ++k) w[i] -= l[i][k] * w[k];
+    }
+    for (size_t i = 0; i < D; ++i) w[i] /= d[i];
+    for (size_t i = D; i-- > 0;)
+        for (size_t k = i + 1; k < D; ++k) w[i] -= l[k][i] * w[k];
+    return w;
+}
+
+// After n observations, until they are solved for again.
+inline int least_squares_interval(int n) { return n < 4 ? 1 : n < 128 ? n / 4 : 32; }
+
 template <size_t D>
 class LeastSquares {
 public:
@@ -39,9 +65,8 @@ public:
     // To be called once per observed vertex; solves after 1, 2, 3, 4, 6, 8, 12, ... of them.
     void tick() {
         if (++n_ < due_) return;
-        solve();
-        const int step = n_ < 4 ? 1 : n_ < 128 ? n_ / 4 : 32;
-        due_ = n_ + step;
+        w_ = ridge_solution(a_, b_, prior_, ridge_);
+        due_ = n_ + least_squares_interval(n_);
         if (n_ >= 128) {
             const double keep = 1.0 - 32.0 / window_;
             for (auto& row : a_)
@@ -51,26 +76,6 @@ public:
     }
 
 private:
-    // Minimises sum weight (y - w x)^2 + ridge |w - prior|^2 by Cholesky's L D L' factorisation.
-    void solve() {
-        double l[D][D], d[D];
-        Vector w;
-        for (size_t i = 0; i < D; ++i) {
-            w[i] = b_[i] + ridge_ * prior_[i];
-            for (size_t j = 0; j <= i; ++j) {
-                double sum = a_[i][j] + (i == j ? ridge_ : 0.0);
-                for (size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * d[k];
-                if (i == j) d[i] = sum > 0.5 * ridge_ ? sum : 0.5 * ridge_;  // positive up to rounding
-                else l[i][j] = sum / d[j];
-            }
-            for (size_t k = 0; k < i; ++k) w[i] -= l[i][k] * w[k];
-        }
-        for (size_t i = 0; i < D; ++i) w[i] /= d[i];
-        for (size_t i = D; i-- > 0;)
-            for (size_t k = i + 1; k < D; ++k) w[i] -= l[k][i] * w[k];
-        w_ = w;
-    }
-
     std::array<Vector, D> a_{};
     Vector b_{}, w_{}, prior_{};
     double ridge_ = 1;

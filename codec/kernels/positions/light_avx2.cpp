@@ -19,6 +19,7 @@
 
 #include "axis_order.hpp"
 #include "gate_order.hpp"
+#include "least_squares.hpp"
 #include "light.hpp"
 #include "recall.hpp"
 #include "site.hpp"
