@@ -77,6 +77,11 @@ class SourceOrder:
         """Whether anything is kept."""
         return self.vertices is not None or self.rotations is not None
 
+    @property
+    def has_all(self) -> bool:
+        """Whether the order of vertices and faces is kept."""
+        return self.vertices is not None
+
     def place_vertices(self, values: Array) -> Array:
         """Values per vertex of the output, in the order of the source."""
         return _placed(values, self.vertices)

@@ -14,7 +14,7 @@ from ebz.codec.arrays import Attributes, face_dtype
 from ebz.codec.attributes import coding, corners, rows
 from ebz.codec.attributes.coding import EXACT
 from ebz.codec.attributes.items import Sites
-from ebz.codec.attributes.precision import AttributePrecision
+from ebz.codec.attributes.precision import AttributePrecision, is_name_of_normal
 from ebz.codec.attributes.rounding import rounded
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
@@ -55,7 +55,9 @@ class Carried:
 
 def keeps_rotation(face_attributes: Attributes) -> bool:
     """Whether the first corner of a face matters: several values may stand for its corners."""
-    return any(values.ndim > 1 for values in face_attributes.values())
+    return any(
+        values.ndim > 1 and not is_name_of_normal(name) for name, values in face_attributes.items()
+    )
 
 
 def encode(
@@ -104,7 +106,7 @@ def encode(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
     )
     placed = lattice.taken(stored, order.vertices)
-    sites = Sites(surface, split.vertex, placed, split.site)
+    sites = Sites(surface, split.vertex, placed, split.site, kept)
     of_vertices, of_faces, of_corners = _encode_attributes(
         mesh, order, sites, attribute_precision, fast=has_fast_attributes(level)
     )
@@ -170,7 +172,8 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         exact = _decode_values(streams.exception_values, encoded)
     vertices = split.at_sites(lattice.restore(points, encoded.dtype, exact))
     report("attributes", 3, N_STAGES)
-    sites = Sites(surface, split.vertex, vertices, split.site)
+    kept = _decode_order(encoded, surface, split, integers)
+    sites = Sites(surface, split.vertex, vertices, split.site, kept)
     carried = Carried(
         coding.decode(encoded.vertex_attributes, sites.by_vertex)
         if encoded.vertex_attributes
@@ -180,7 +183,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
         rows.decode(encoded.elements, sites),
         _decode_metadata(encoded),
     )
-    mesh = _arranged(sites, _decode_order(encoded, surface, split, integers), carried)
+    mesh = _arranged(sites, kept, carried)
     report("done", N_STAGES, N_STAGES)
     if digest(mesh) != encoded.digest:
         raise CorruptError(

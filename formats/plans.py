@@ -13,13 +13,15 @@ from ebz.codec.errors import CorruptError, VersionError
 from ebz.codec.lattice import MAX_DIGITS, MAX_SINGLE_DIGITS
 
 MAX_DIVISOR = 65535
+# Added to the method where entries are in the order of the source.
+IN_SOURCE_ORDER = 4
 
 
 def build(plan: Plan) -> dict[str, Any]:
     """The values of declarations.Plan."""
     return {
         "lattice": {"kind": plan.lattice.kind, "parameters": vars(plan.lattice)},
-        "method": plan.method,
+        "method": plan.method + IN_SOURCE_ORDER * plan.in_source_order,
         "guess": plan.guess,
         "relation": plan.relation,
         "total": plan.total,
@@ -33,8 +35,11 @@ def build(plan: Plan) -> dict[str, Any]:
 def parse(parsed: Any, dtype: np.dtype[Any], n_components: int, labels: bytes) -> Plan:
     """The plan for entries of n_components; raises CorruptError, VersionError."""
     try:
-        method, guess = Method(parsed.method), Guess(parsed.guess)
+        in_source_order, number = divmod(parsed.method, IN_SOURCE_ORDER)
+        method, guess = Method(number), Guess(parsed.guess)
         relation = Relation(parsed.relation)
+        if in_source_order > 1:
+            raise ValueError(f"method {parsed.method}")
     except ValueError as error:
         raise VersionError(f"an attribute coded in another way: {error}") from None
     lattice = _lattice(parsed.lattice, dtype, n_components)
@@ -61,6 +66,7 @@ def parse(parsed: Any, dtype: np.dtype[Any], n_components: int, labels: bytes) -
         specials=parsed.specials,
         n_labels=parsed.n_labels,
         labels=labels,
+        in_source_order=bool(in_source_order),
     )
 
 

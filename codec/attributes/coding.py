@@ -91,15 +91,22 @@ def encode_bundle(
     lattice = lattice_of(flat, precision.of(bundle.names[0])) or lattices.fit(flat)
     plan, integers = specials.integers(flat, lattice)
     plans = list(_plans(plan, integers, flat, items, array))
-    coded = _encode_all(_fast(plans, array), items, array)
-    slow = [pair for pair in plans if not (fast and coded) or _has_few_labels(pair[0])]
-    coded += _encode_all(slow, items, array)
-    best, data = min(coded, key=lambda pair: len(pair[1]) + len(pair[0].labels))
-    return replace(array, plan=best, data=data)
+    best = _shortest(plans, items, array, fast=fast)
+    if items.of_source is not None:
+        rows = items.rows_of_source
+        integers = rows.arranged(items.rearranged(integers))
+        if _rough_size(integers) < _size(best):
+            plan = replace(plan, in_source_order=True)
+            plans = list(_plans(plan, integers, flat, rows, array))
+            best = min(best, _shortest(plans, rows, array, fast=fast), key=_size)
+    return replace(array, plan=best[0], data=best[1])
 
 
 def decode_array(array: EncodedArray, items: Items) -> npt.NDArray[Any]:
     """(n, ...) entries; raises CorruptError."""
+    if array.plan.in_source_order:
+        with corrupt_at(array.place):
+            items = items.rows_of_source
     shape = (items.n, *array.shape)
     n_values = array.n_components
     if not items.n or not n_values:
@@ -112,6 +119,27 @@ def decode_array(array: EncodedArray, items: Items) -> npt.NDArray[Any]:
         if values.size != items.n * n_values:
             raise CorruptError("entries of another number of components")
     return items.rearranged(values.reshape(shape))
+
+
+def _shortest(
+    plans: list[tuple[Plan, Integers]], items: Items, array: EncodedArray, *, fast: bool
+) -> tuple[Plan, bytes]:
+    """The plan with the fewest bytes, and its stream."""
+    coded = _encode_all(_fast(plans, array), items, array)
+    slow = [pair for pair in plans if not (fast and coded) or _has_few_labels(pair[0])]
+    return min(coded + _encode_all(slow, items, array), key=_size)
+
+
+def _size(coded: tuple[Plan, bytes]) -> int:
+    plan, data = coded
+    return len(data) + len(plan.labels)
+
+
+def _rough_size(integers: Integers) -> float:
+    """About the bytes of the (n, components) differences from entry to entry, or of theirs."""
+    steps = np.diff(integers.astype(np.float64), axis=0)
+    sizes = (np.log2(1 + 2 * np.abs(x)).sum() for x in (steps, np.diff(steps, axis=0)))
+    return min(sizes) / 8
 
 
 def _plans(

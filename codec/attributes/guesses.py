@@ -29,13 +29,11 @@ def best(plan: Plan, values: npt.NDArray[Any], items: Items) -> Guess:
     wide = np.nan_to_num(values.astype(np.float64), posinf=0, neginf=0) / _scale(plan)
     errors = {Guess.NONE: np.inf if is_direction else CONVINCING * np.abs(wide).mean()}
     offs: dict[Guess, Vectors] = {}
-    for weights in _weights(items):
-        for length in (Guess.NONE,) if is_direction else (Guess.NONE, Guess.SUM):
-            guess = Guess.NORMALS | weights | length
-            normals = _normals(guess, items)
-            for side, off in ((Guess.NONE, wide - normals), (Guess.INVERTED, wide + normals)):
-                offs[guess | side] = np.abs(off, out=off)
-                errors[guess | side] = float(off.mean())
+    for guess in _guesses(items, is_direction=is_direction):
+        normals = _normals(guess, items)
+        for side, off in ((Guess.NONE, wide - normals), (Guess.INVERTED, wide + normals)):
+            offs[guess | side] = np.abs(off, out=off)
+            errors[guess | side] = float(off.mean())
     guess = min(errors, key=lambda guess: errors[guess])
     if is_direction and items.is_by_corner and np.median(offs[guess].max(axis=1)) > LEAST_ERROR:
         guess |= Guess.HEIGHTS
@@ -57,10 +55,14 @@ def _scale(plan: Plan) -> float:
     return plan.total if is_integer else 1.0
 
 
-def _weights(items: Items) -> list[Guess]:
+def _guesses(items: Items, *, is_direction: bool) -> list[Guess]:
+    """Those that differ; directions have length 1."""
     if not items.is_by_corner:
-        return [Guess.NONE]
-    return [*WEIGHTS, *(w | Guess.CORNERS for w in WEIGHTS if items.is_of_polygons)]
+        weights = [Guess.NONE] if is_direction else [Guess.NONE, Guess.AREA]
+        return [Guess.NORMALS | w for w in weights]
+    weights = [*WEIGHTS, *(w | Guess.CORNERS for w in WEIGHTS if items.is_of_polygons)]
+    lengths = [Guess.NONE] if is_direction else [Guess.NONE, Guess.SUM]
+    return [Guess.NORMALS | w | length for w in weights for length in lengths]
 
 
 def _normals(guess: Guess, items: Items) -> Vectors:

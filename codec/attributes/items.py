@@ -9,6 +9,8 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels
 from ebz.codec.connectivity import Int32s, Surface
+from ebz.codec.errors import CorruptError
+from ebz.codec.order import SourceOrder
 from ebz.codec.polygons import PolygonCorners, Triangles
 
 Floats = npt.NDArray[np.float64]
@@ -23,12 +25,14 @@ class Sites:
     vertex: (3t,) that of each corner of the surface's triangles.
     vertices: (n, 3) float32 or float64, as decoded.  site: (n,) that of each vertex: those of one
     site have the same coordinates; None where each has its own.
+    source: the order that is kept.
     """
 
     surface: Surface
     vertex: Int32s
     vertices: npt.NDArray[Any]
     site: npt.NDArray[Any] | None
+    source: SourceOrder
 
     @property
     def opposite(self) -> Int32s:
@@ -65,32 +69,43 @@ class Sites:
     @cached_property
     def by_vertex(self) -> "Items":
         """A vertex each."""
-        return self._by_corner(self.vertex, np.arange(self.n_vertices))
+        numbers = np.arange(self.n_vertices)
+        placed = self.source.place_vertices(numbers) if self.source.has_all else None
+        return self._by_corner(self.vertex, numbers, placed)
 
     @cached_property
     def by_face(self) -> "Items":
         """A face each."""
-        if self.polygons is None:
-            return Items(self.n_faces, self.opposite, sites=self)
-        across = self.polygons.across(self.opposite)
-        return Items(self.n_faces, across, sites=self, offsets=self.face_offsets)
+        numbers, across = np.arange(self.n_faces), self.opposite
+        placed = self.source.place_faces(numbers) if self.source.has_all else None
+        if self.polygons is not None:
+            across = self.polygons.across(self.opposite)
+        return Items(self.n_faces, across, sites=self, offsets=self.face_offsets, of_source=placed)
 
     def by_wedge(self, wedge: Int32s, n_wedges: int) -> "Items":
         """The corners of one wedge each: those at a vertex that have the same value."""
         vertex = np.zeros(n_wedges, np.int32)
         vertex[wedge] = self.vertex
-        return self._by_corner(wedge, vertex)
+        placed = None
+        if self.source.has_all:
+            corners = self.source.place_values(self.of_faces(wedge))
+            placed = _kernels.number_by_first_use(corners, n_wedges)[1]
+        return self._by_corner(wedge, vertex, placed)
 
-    def _by_corner(self, item: Int32s, at: npt.NDArray[Any]) -> "Items":
+    def _by_corner(
+        self, item: Int32s, at: npt.NDArray[Any], of_source: npt.NDArray[Any] | None
+    ) -> "Items":
         """item: (3t,) of each corner of the surface's triangles.  at: the vertex of each item."""
         n, opposite = len(at), self.triangles.opposite
         along, order = self.triangles.numbered(item, n)
         if order is None:
-            return Items(n, opposite, along, self, at, corners=item)
+            return Items(n, opposite, along, self, at, corners=item, of_source=of_source)
         number = np.empty(n, np.int32)
         number[order] = np.arange(n, dtype=np.int32)
         corners = number[self.of_faces(item)]
-        return Items(n, opposite, along, self, at[order], corners=corners, order=order)
+        return Items(
+            n, opposite, along, self, at[order], corners=corners, order=order, of_source=of_source
+        )
 
     @cached_property
     def points(self) -> Floats:
@@ -108,6 +123,7 @@ class Items:
     offsets: (n + 1,) where the half-edges of each face begin; nothing where faces are triangles.
     corners: (k,) the entry of each corner of the faces; nothing where entries are no corners.
     order: (n,) the number that each entry has elsewhere; None where it is the same.
+    of_source: (n,) these numbers as the source has the entries; None where its order is not kept.
     """
 
     n: int
@@ -117,7 +133,15 @@ class Items:
     at: npt.NDArray[Any] = field(default_factory=lambda: NOTHING)
     offsets: Int32s = field(default_factory=lambda: NOTHING)
     corners: Int32s = field(default_factory=lambda: NOTHING)
-    order: Int32s | None = None
+    order: npt.NDArray[Any] | None = None
+    of_source: npt.NDArray[Any] | None = None
+
+    @property
+    def rows_of_source(self) -> "Items":
+        """The entries one after another as the source has them; raises CorruptError."""
+        if self.of_source is None or len(self.of_source) != self.n:
+            raise CorruptError("entries in an order that is not kept")
+        return Items(self.n, order=self.of_source)
 
     def arranged(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """(n, ...) values as entries are ordered here."""

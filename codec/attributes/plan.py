@@ -51,6 +51,7 @@ class Plan:
     specials: little-endian bits of values beside the lattice, which have the integers from
     special_start on.  labels: stream of the n_labels integers that occur, in ascending order; where
     there are some, what is coded is which of them.  total: of the relation, in the lattice's steps.
+    in_source_order: entries are rows as the source has them, not along the surface.
     """
 
     lattice: Lattice = field(default_factory=IntegerLattice)
@@ -62,3 +63,4 @@ class Plan:
     specials: bytes = b""
     n_labels: int = 0
     labels: bytes = b""
+    in_source_order: bool = False
