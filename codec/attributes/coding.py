@@ -139,7 +139,7 @@ def _rough_size(integers: Integers) -> float:
     """About the bytes of the (n, components) differences from entry to entry, or of theirs."""
     steps = np.diff(integers.astype(np.float64), axis=0)
     sizes = (np.log2(1 + 2 * np.abs(x)).sum() for x in (steps, np.diff(steps, axis=0)))
-    return min(sizes) / 8
+    return float(min(sizes)) / 8
 
 
 def _plans(
