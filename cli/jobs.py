@@ -2,9 +2,8 @@
 
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from functools import partial
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from ebz.cli import messages
 from ebz.cli.atomic import sync_folder
@@ -15,8 +14,7 @@ from ebz.codec import threads
 Result = TypeVar("Result")
 
 
-@dataclass(frozen=True)
-class Manner:
+class Manner(NamedTuple):
     """How files are treated and how much is said about it; alone: not several at a time."""
 
     force: bool = False

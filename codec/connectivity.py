@@ -5,9 +5,9 @@ pieces are one vertex of the mesh, and the gluing says which.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -26,8 +26,7 @@ Int64s = npt.NDArray[np.int64]
 WordModel = AnyTable | Effort
 
 
-@dataclass(frozen=True)
-class WordCounts:
+class WordCounts(NamedTuple):
     """The integers that frame a word.
 
     n_symbols: its length.  n_closed: components without a boundary, whose first triangle has no
@@ -95,8 +94,7 @@ class Surface:
         return self.n_vertices < len(self.vertex_of_piece)
 
 
-@dataclass(frozen=True)
-class EncodedWord:
+class EncodedWord(NamedTuple):
     """A word and what stands beside it."""
 
     counts: WordCounts
@@ -108,8 +106,7 @@ class EncodedWord:
     gluing: bytes
 
 
-@dataclass(frozen=True)
-class OutputOrder:
+class OutputOrder(NamedTuple):
     """Where the faces and vertices of the decoded mesh come from.
 
     corners: (t,) the corner of the source that becomes the first corner of each triangle.
@@ -162,7 +159,7 @@ def encode(
     """
     traversal, surface, order = _traverse(faces, n_vertices, offsets)
     n_copies = len(surface.vertex_of_piece) - surface.n_vertices
-    counts = replace(traversal.counts, n_copies=n_copies)
+    counts = traversal.counts._replace(n_copies=n_copies)
     gluing = _encode_gluing(surface, n_copies)
     if offsets is not None:
         models = _models_of_polygons(models)
@@ -214,8 +211,7 @@ def _models_of_polygons(models: Sequence[WordModel]) -> list[WordModel]:
     return [max(model, Effort.FAST) for model in adaptive]
 
 
-@dataclass(frozen=True)
-class _Traversal:
+class _Traversal(NamedTuple):
     """What the kernels find; marks: none for triangles."""
 
     counts: WordCounts
@@ -295,7 +291,7 @@ def _traverse(
     else:
         traversal, surface, order = _traverse_polygons(corners, n_compact, offsets)
     vertices = order.vertices if used is None else used[order.vertices]
-    return traversal, surface, replace(order, vertices=_with_isolated(vertices, n_vertices))
+    return traversal, surface, order._replace(vertices=_with_isolated(vertices, n_vertices))
 
 
 def _require_codable(faces: npt.NDArray[Any], n_vertices: int, offsets: Int64s | None) -> None:

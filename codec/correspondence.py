@@ -1,7 +1,6 @@
 """Which vertex, face and corner of the original each of a decoded mesh is."""
 
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,8 +15,7 @@ from ebz.codec.mesh import Mesh
 Order = npt.NDArray[Any]
 
 
-@dataclass(frozen=True)
-class Correspondence:
+class Correspondence(NamedTuple):
     """For each vertex, face and corner of the decoded mesh, that of the original."""
 
     vertices: Order
@@ -61,7 +59,7 @@ def by_traversal(decoded: Mesh, original: Mesh, lattice: Lattice) -> Corresponde
     surface, order = connectivity.traverse(welded, len(original.vertices), offsets)
     arrangement = welding.arrange(original.faces, welded, surface, order)
     arrangement, _ = free_points.encode(arrangement, points.integers)
-    order = replace(order, vertices=arrangement.vertices)
+    order = order._replace(vertices=arrangement.vertices)
     number = np.empty(len(order.vertices), np.int64)
     number[order.vertices] = np.arange(len(order.vertices))
     for faces, rows in cycles.by_size(decoded.offsets):

@@ -1,9 +1,9 @@
 """The encoded mesh as a structure: what a container stores, before any byte is laid out."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,9 +14,10 @@ from ebz.codec.listing import Listing
 from ebz.codec.order import OrderStreams
 from ebz.codec.positions import Coding
 
+NOWHERE: Mapping[str, object] = MappingProxyType({})
 
-@dataclass(frozen=True)
-class EncodedArray:
+
+class EncodedArray(NamedTuple):
     """Attributes that are coded together: `data` codes all entries in output order.
 
     names: of one attribute whose entries have `shape`, or of the components of the entries.
@@ -28,7 +29,7 @@ class EncodedArray:
     dtype: np.dtype[Any]
     shape: tuple[int, ...]
     data: bytes
-    plan: Plan = field(default_factory=Plan)
+    plan: Plan = Plan()
     seams: bytes = b""
     place: str = "attribute"
 
@@ -43,8 +44,7 @@ class EncodedArray:
         return math.prod(self.shape, start=self.dtype.itemsize)
 
 
-@dataclass(frozen=True)
-class EncodedText:
+class EncodedText(NamedTuple):
     """Text of `n_bytes`, which `data` codes, and byte strings of `n_raw` that it stands for.
 
     raw: these as they are, or coded where there are fewer bytes of it.
@@ -56,8 +56,7 @@ class EncodedText:
     raw: bytes = b""
 
 
-@dataclass(frozen=True)
-class EncodedElement:
+class EncodedElement(NamedTuple):
     """Rows beside vertices and faces.
 
     corners: in rows of `width`, their vertices in output order; None where `links` holds them.
@@ -75,8 +74,7 @@ class EncodedElement:
     place: str = "element"
 
 
-@dataclass(frozen=True)
-class Streams:
+class Streams(NamedTuple):
     """Entropy-coded bytes, by what they hold."""
 
     word: bytes
@@ -91,8 +89,7 @@ class Streams:
     order: OrderStreams
 
 
-@dataclass(frozen=True)
-class EncodedMesh:
+class EncodedMesh(NamedTuple):
     """Everything from which `pipeline.decode` restores a mesh.
 
     places: what names the place in the file of each part that errors speak of, by name.
@@ -106,13 +103,13 @@ class EncodedMesh:
     coding: Coding
     model: WordModel
     streams: Streams
-    vertex_attributes: list[EncodedArray] = field(default_factory=list)
-    face_attributes: list[EncodedArray] = field(default_factory=list)
-    corner_attributes: list[EncodedArray] = field(default_factory=list)
-    elements: list[EncodedElement] = field(default_factory=list)
+    vertex_attributes: Sequence[EncodedArray] = ()
+    face_attributes: Sequence[EncodedArray] = ()
+    corner_attributes: Sequence[EncodedArray] = ()
+    elements: Sequence[EncodedElement] = ()
     metadata: EncodedText | None = None
     digest: bytes = b""
-    places: Mapping[str, object] = field(default_factory=dict)
+    places: Mapping[str, object] = NOWHERE
 
     def place(self, part: str) -> object:
         """Where in the file a part is: chunk and offset, the part's name where there is no file."""

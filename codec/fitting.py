@@ -6,7 +6,7 @@ the coordinates it decodes to: that makes compression canonical.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,8 +33,7 @@ MAX_POINTS = {4: 2.0**26, 8: MAX_MULTIPLE}
 MISSES_SHIFT = 6
 
 
-@dataclass(frozen=True)
-class Precision:
+class Precision(NamedTuple):
     """How far coordinates may move: not at all, or as one of these says.
 
     bits: 2^bits points along the longest side.  max_error: in model units.  grid: shared by meshes.

@@ -5,8 +5,8 @@ an exception, stored bit for bit.  Both directions are IEEE operations on whole 
 rounded, so every machine gets the same integers and the same coordinates.
 """
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -146,8 +146,7 @@ class GridLattice:
 Lattice = FloatLattice | SingleLattice | DecimalLattice | BoxLattice | StepLattice | GridLattice
 
 
-@dataclass(frozen=True)
-class Points:
+class Points(NamedTuple):
     """Coordinates on a lattice: (n, 3) integers, and the flat, ascending rows of exceptions."""
 
     lattice: Lattice
@@ -157,7 +156,7 @@ class Points:
     def take(self, rows: npt.NDArray[Any]) -> "Points":
         """Those rows, in that order."""
         if not len(self.exceptions):
-            return replace(self, integers=taken(self.integers, rows))
+            return self._replace(integers=taken(self.integers, rows))
         marked = np.zeros(self.integers.shape, bool)
         marked.reshape(-1)[self.exceptions] = True
         return Points(self.lattice, taken(self.integers, rows), np.flatnonzero(marked[rows]))

@@ -4,7 +4,7 @@ Entries are told by magnitude, x or -1 - x, so that what is mirrored, as floats 
 are by their order, is told once.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -26,8 +26,7 @@ HAS_BOTH = 64
 N_LONG = 1 << 12
 
 
-@dataclass(frozen=True)
-class Listing:
+class Listing(NamedTuple):
     """n different integers and their stream."""
 
     n: int

@@ -4,8 +4,7 @@ Reference: colour refinement, B. Weisfeiler and A. Leman, "The reduction of a gr
 form", 1968, on vertices and faces.
 """
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,8 +15,7 @@ Colours = npt.NDArray[np.int64]
 MAX_ROUNDS = 100
 
 
-@dataclass(frozen=True)
-class Labelled:
+class Labelled(NamedTuple):
     """corners, offsets: of the faces; data: (n, k) bytes of each vertex; face_data: (m, j)."""
 
     corners: npt.NDArray[Any]

@@ -8,7 +8,7 @@ import enum
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -44,8 +44,7 @@ class Permutation:
     faces: Int64s
 
 
-@dataclass(frozen=True)
-class OrderStreams:
+class OrderStreams(NamedTuple):
     """What is kept of the source's order; None where the decoder's own order stands."""
 
     vertices: bytes | None = None
@@ -288,7 +287,7 @@ def _split(stream: bytes) -> tuple[Method, Bytes]:
 
 
 def _size(streams: OrderStreams) -> int:
-    return sum(len(stream or b"") for stream in vars(streams).values())
+    return sum(len(stream or b"") for stream in streams)
 
 
 def _counting(n: int) -> Int32s:

@@ -1,8 +1,8 @@
 """All stages in order: mesh -> word and order -> lattice -> residuals -> streams, and back."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -33,8 +33,7 @@ Progress = Callable[[str, int, int], None]
 N_STAGES = 4
 
 
-@dataclass(frozen=True)
-class Decoded:
+class Decoded(NamedTuple):
     """A decoded mesh and, for statistics, what its connectivity was made of."""
 
     mesh: Mesh
@@ -42,8 +41,7 @@ class Decoded:
     surface: Surface
 
 
-@dataclass(frozen=True)
-class Carried:
+class Carried(NamedTuple):
     """What a mesh has besides its surface, in output order."""
 
     vertices: Attributes
@@ -94,7 +92,7 @@ def encode(
     free = None
     if not keep_order:
         arrangement, free = free_points.encode(arrangement, points.integers)
-    order = replace(order, vertices=arrangement.vertices)
+    order = order._replace(vertices=arrangement.vertices)
     points = points.take(arrangement.sites)
     n_along = len(arrangement.sites) if free is None else surface.n_vertices
     coded = positions.encode(surface, points, n_along, stored.dtype, position_method(level))
@@ -138,7 +136,7 @@ def encode(
     )
     decoded = _restored(mesh, order, kept, sites)
     report("done", N_STAGES, N_STAGES)
-    return replace(encoded, digest=digest(decoded)), order
+    return encoded._replace(digest=digest(decoded)), order
 
 
 def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded:

@@ -1,7 +1,5 @@
 """Vertices that no face uses: a set of points in an order of its own."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from ebz.codec import _kernels
@@ -22,8 +20,7 @@ def encode(arrangement: Arrangement, integers: Integers) -> tuple[Arrangement, b
     stream, order = _kernels.encode_points(integers[free].reshape(-1))
     free = free[order]
     n_along = len(arrangement.sites) - len(free)
-    arranged = replace(
-        arrangement,
+    arranged = arrangement._replace(
         vertices=np.concatenate([arrangement.vertices[:n_used], free]),
         sites=np.concatenate([arrangement.sites[:n_along], free]),
     )

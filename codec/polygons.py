@@ -1,8 +1,7 @@
 """Faces of any number of corners: all corners in one array, and where those of a face begin."""
 
 import enum
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,8 +15,7 @@ Int64s = npt.NDArray[np.int64]
 MARKS = np.array([0, 3, 2], np.uint8)
 
 
-@dataclass(frozen=True)
-class PolygonCorners:
+class PolygonCorners(NamedTuple):
     """The polygons of a surface, in output order; those without corners come last.
 
     offsets: (m + 1,) where the corners of each begin.  corner: (k,) the corner of a triangle that
@@ -47,8 +45,7 @@ class Cut(enum.IntEnum):
     TWICE = 2
 
 
-@dataclass(frozen=True)
-class Triangles:
+class Triangles(NamedTuple):
     """The triangles along which values are predicted.
 
     opposite: (3t,) the half-edge across.  corner: (3t,) the corner of the surface's triangles that
@@ -85,8 +82,7 @@ def cut(
     return Triangles(opposite, polygons.corner[corner])
 
 
-@dataclass(frozen=True)
-class PolygonCounts:
+class PolygonCounts(NamedTuple):
     """What a file says of polygons: faces, those without corners among them, and corners."""
 
     n_faces: int
@@ -94,8 +90,7 @@ class PolygonCounts:
     n_corners: int
 
 
-@dataclass(frozen=True)
-class PolygonSource:
+class PolygonSource(NamedTuple):
     """Where the polygons of the output come from.
 
     faces: (m,) the source face of each.  rotations: (m,) which corner of that comes first.
@@ -107,8 +102,7 @@ class PolygonSource:
     corners: Int32s
 
 
-@dataclass(frozen=True)
-class Padded:
+class Padded(NamedTuple):
     """The faces that have corners, with three at least: the last corner is repeated.
 
     faces: their numbers.  offsets: (m' + 1,).  corner: which corner each one is.

@@ -2,8 +2,7 @@
 
 import enum
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -41,8 +40,7 @@ CUTS = {Method.LIGHT: (Cut.COMPLETING, Cut.TWICE), Method.STRONG: tuple(Cut)}
 MAX_TWICE = (2**31 - 1) // 6  # triangles of which half-edges of twice as many have 31 bits
 
 
-@dataclass(frozen=True)
-class Coding:
+class Coding(NamedTuple):
     """How the positions of a mesh are coded; cut: of polygons; is_listed: as numbers in a list."""
 
     method: Method
@@ -50,8 +48,7 @@ class Coding:
     is_listed: bool = False
 
 
-@dataclass(frozen=True)
-class Along:
+class Along(NamedTuple):
     """The triangles along which positions are predicted.
 
     opposite, vertex: (3t,) the half-edge across and the vertex of each corner.  order: (n,) the
@@ -69,8 +66,7 @@ class Along:
         return self.opposite, self.vertex, self.n_vertices
 
 
-@dataclass(frozen=True)
-class Coded:
+class Coded(NamedTuple):
     """The stream, and the list of the integers of which it says which are where, if any."""
 
     data: bytes
@@ -97,7 +93,7 @@ def encode(
         return coded
     listing, which = found
     other = _shortest(surface, which, _with_next(method, n_along))
-    coding = replace(other.coding, is_listed=True)
+    coding = other.coding._replace(is_listed=True)
     return min(coded, Coded(other.data, coding, listing), key=_size)
 
 

@@ -1,7 +1,7 @@
 """A scene <-> streams: its parts one after another, on one lattice where their precision is one."""
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from ebz.codec import fitting, metadata, pipeline, threads
 from ebz.codec.connectivity import OutputOrder, WordModel
@@ -13,8 +13,7 @@ from ebz.codec.pipeline import Progress
 from ebz.codec.scene import Scene, in_part, name_of
 
 
-@dataclass(frozen=True)
-class EncodedScene:
+class EncodedScene(NamedTuple):
     """Everything from which `decode` restores a scene; place: where its chunk is in the file."""
 
     parts: list[EncodedMesh]

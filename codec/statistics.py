@@ -1,7 +1,7 @@
 """What a compressed mesh is made of and what each part of it costs."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -181,7 +181,7 @@ def _attributes(encoded: EncodedMesh) -> dict[str, dict[str, Any]]:
     }
 
 
-def _owners(encoded: EncodedMesh) -> Iterator[tuple[str, int, list[EncodedArray]]]:
+def _owners(encoded: EncodedMesh) -> Iterator[tuple[str, int, Sequence[EncodedArray]]]:
     """What has attributes, and how many entries each of them has."""
     n_faces = encoded.counts.n_faces
     yield "vertex", encoded.n_vertices, encoded.vertex_attributes

@@ -5,8 +5,7 @@ the positions are those of the welded surface; the splits stream tells which cor
 belong to which vertex, so that the decoded mesh has its own vertices again.
 """
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,8 +15,7 @@ from ebz.codec.connectivity import Int32s, Int64s, OutputOrder, Surface
 from ebz.codec.errors import CorruptError
 
 
-@dataclass(frozen=True)
-class Arrangement:
+class Arrangement(NamedTuple):
     """What is coded of the vertices, and where it comes from.
 
     vertex: (3m,) the output vertex of each corner in output order.  vertices: (n,) the source of
@@ -68,8 +66,7 @@ def arrange(
     )
 
 
-@dataclass(frozen=True)
-class Split:
+class Split(NamedTuple):
     """The decoder's side: the vertex of each corner, and the coded site of each vertex.
 
     site: (n,), None where each vertex is the site of its number.

@@ -4,7 +4,6 @@ Without construct, which takes longer than a small mesh does to decode.
 """
 
 import struct
-from dataclasses import astuple
 from typing import NamedTuple
 
 from ebz.codec.connectivity import WordCounts
@@ -66,7 +65,7 @@ def write(encoded: EncodedMesh, model: int) -> bytes:
         encoded.n_exceptions,
     )
     size = _face_size(counts)
-    polygons = astuple(counts.polygons) if counts.polygons and size == MIXED else ()
+    polygons = counts.polygons if counts.polygons and size == MIXED else ()
     numbers = bytes([model, _byte_of(encoded.coding)])
     sizes = [*map(layout.varint, integers), bytes([size]), *map(layout.varint, polygons)]
     return bytes([itemsize]) + b"".join(sizes) + numbers + lattices.write(lattice, itemsize)

@@ -1,6 +1,7 @@
 """What a file may declare: no more than its bytes can hold, no more than memory allows."""
 
 import math
+from collections.abc import Sequence
 
 from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, EncodedText
 from ebz.codec.errors import CorruptError, MemoryLimitError, corrupt_at
@@ -138,7 +139,7 @@ def _elements_size(element: EncodedElement) -> int:
     return size + BYTES_PER_ROW * (element.n_rows + element.n_corners)
 
 
-def _arrays_size(arrays: list[EncodedArray], n: int) -> int:
+def _arrays_size(arrays: Sequence[EncodedArray], n: int) -> int:
     size = 0
     for array in arrays:
         entry = array.entry_size

@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -22,8 +21,7 @@ MAX_NAMES = 64
 _NUMBERED = re.compile(r"(.*?)(\d{1,9})", re.S)
 
 
-@dataclass(frozen=True)
-class Bundle:
+class Bundle(NamedTuple):
     """Names, and the values of all of them: a component each, or any shape if there is one name."""
 
     names: tuple[str, ...]

@@ -3,8 +3,7 @@
 Values -> integers on a lattice -> labels where few occur -> bytes, and back.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -52,18 +51,18 @@ def encode_each(
     """What becomes of each bundle of entries in the order of the output."""
 
     def coded(bundle: Bundle) -> EncodedArray:
-        return encode_one(replace(bundle, values=bundle.values[order]))
+        return encode_one(bundle._replace(values=bundle.values[order]))
 
     return threads.run(coded, bundles(attributes, precision.of))
 
 
-def decode(arrays: list[EncodedArray], items: Items) -> Attributes:
+def decode(arrays: Sequence[EncodedArray], items: Items) -> Attributes:
     """The attributes by name; raises CorruptError."""
     return decode_each(arrays, partial(decode_array, items=items))
 
 
 def decode_each(
-    arrays: list[EncodedArray], decode_one: Callable[[EncodedArray], npt.NDArray[Any]]
+    arrays: Sequence[EncodedArray], decode_one: Callable[[EncodedArray], npt.NDArray[Any]]
 ) -> Attributes:
     """What becomes of each bundle, by the names of its attributes."""
     named: Attributes = {}
@@ -96,10 +95,10 @@ def encode_bundle(
         rows = items.rows_of_source
         integers = rows.arranged(items.rearranged(integers))
         if _rough_size(integers) < _size(best):
-            plan = replace(plan, in_source_order=True)
+            plan = plan._replace(in_source_order=True)
             plans = list(_plans(plan, integers, flat, rows, array))
             best = min(best, _shortest(plans, rows, array, fast=fast), key=_size)
-    return replace(array, plan=best[0], data=best[1])
+    return array._replace(plan=best[0], data=best[1])
 
 
 def decode_array(array: EncodedArray, items: Items) -> npt.NDArray[Any]:
@@ -148,12 +147,12 @@ def _plans(
     """Ways to code the integers, and what they make of them."""
     related = relations.find(plan, integers, array.dtype)
     guess = guesses.best(related, values, items)
-    yield replace(related, guess=guess), integers
+    yield related._replace(guess=guess), integers
     labelled = labels.encode(integers)
     if labelled is not None:
         n_labels, stream, numbers = labelled
         for method in (Method.SYMBOLS, Method.NUMBERS):
-            yield replace(plan, method=method, n_labels=n_labels, labels=stream), numbers
+            yield plan._replace(method=method, n_labels=n_labels, labels=stream), numbers
 
 
 def _fast(plans: list[tuple[Plan, Integers]], array: EncodedArray) -> list[tuple[Plan, Integers]]:
@@ -161,7 +160,7 @@ def _fast(plans: list[tuple[Plan, Integers]], array: EncodedArray) -> list[tuple
     plain, integers = plans[0]
     if _space(plain, array):
         return []
-    return [(replace(plain, method=Method.FAST), integers)]
+    return [(plain._replace(method=Method.FAST), integers)]
 
 
 def _has_few_labels(plan: Plan) -> bool:

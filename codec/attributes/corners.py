@@ -1,7 +1,7 @@
 """Attributes of corners: which corners at a vertex share a value (its wedges), and the values."""
 
 import math
-from dataclasses import replace
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -32,7 +32,7 @@ def encode(
     return coding.encode_each(attributes, order, precision, one)
 
 
-def decode(arrays: list[EncodedArray], sites: Sites) -> Attributes:
+def decode(arrays: Sequence[EncodedArray], sites: Sites) -> Attributes:
     """The attributes of the 3m corners of the output; raises CorruptError."""
     return coding.decode_each(arrays, partial(_decode, sites=sites))
 
@@ -44,9 +44,9 @@ def _encode(
     seams = b""
     if int(wedge.max(initial=-1)) != int(sites.vertex.max(initial=-1)):
         seams = _kernels.encode_splits(sites.opposite, sites.vertex, sites.n_vertices, wedge)
-    bundle = replace(bundle, values=bundle.values[is_first])
+    bundle = bundle._replace(values=bundle.values[is_first])
     array = coding.encode_bundle(bundle, _items(wedge, sites), precision, fast=fast)
-    return replace(array, seams=seams)
+    return array._replace(seams=seams)
 
 
 def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:

@@ -1,8 +1,8 @@
 """What the entries of an attribute stand for, and how they lie along the surface."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -114,8 +114,7 @@ class Sites:
             return self.vertices.astype(np.float64)
 
 
-@dataclass(frozen=True)
-class Items:
+class Items(NamedTuple):
     """n entries, along a surface where there is one.
 
     opposite, item: (3m,) the half-edge across and the entry of each corner; without item, entries
@@ -127,12 +126,12 @@ class Items:
     """
 
     n: int
-    opposite: Int32s = field(default_factory=lambda: NOTHING)
-    item: Int32s = field(default_factory=lambda: NOTHING)
+    opposite: Int32s = NOTHING
+    item: Int32s = NOTHING
     sites: Sites | None = None
-    at: npt.NDArray[Any] = field(default_factory=lambda: NOTHING)
-    offsets: Int32s = field(default_factory=lambda: NOTHING)
-    corners: Int32s = field(default_factory=lambda: NOTHING)
+    at: npt.NDArray[Any] = NOTHING
+    offsets: Int32s = NOTHING
+    corners: Int32s = NOTHING
     order: npt.NDArray[Any] | None = None
     of_source: npt.NDArray[Any] | None = None
 

@@ -1,7 +1,7 @@
 """How the entries of one attribute are coded: what its stream does not say."""
 
 import enum
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from ebz.codec.attributes.lattices import IntegerLattice, Lossless
 from ebz.codec.attributes.lossy import Lossy
@@ -44,8 +44,7 @@ class Guess(enum.IntFlag, boundary=enum.STRICT):
     CORNERS = 64
 
 
-@dataclass(frozen=True)
-class Plan:
+class Plan(NamedTuple):
     """Values -> integers of the lattice -> labels -> stream.
 
     specials: little-endian bits of values beside the lattice, which have the integers from
@@ -54,7 +53,7 @@ class Plan:
     in_source_order: entries are rows as the source has them, not along the surface.
     """
 
-    lattice: Lattice = field(default_factory=IntegerLattice)
+    lattice: Lattice = IntegerLattice()
     method: Method = Method.NUMBERS
     relation: Relation = Relation.NONE
     total: float = 0.0

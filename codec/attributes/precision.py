@@ -1,7 +1,8 @@
 """What may be lost of each attribute."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from ebz.codec.attributes import lossy
 from ebz.codec.attributes.lattices import Values
@@ -16,12 +17,14 @@ MAX_SPECIAL_VECTORS = 256
 Asked = tuple[int | None, float | None, int | None]
 
 
-@dataclass(frozen=True)
-class AttributePrecision:
+NONE: Mapping[str, Any] = MappingProxyType({})
+
+
+class AttributePrecision(NamedTuple):
     """bits, error: by attribute's name, whatever it belongs to.  normal_bits: of all normals."""
 
-    bits: Mapping[str, int] = field(default_factory=dict)
-    error: Mapping[str, float] = field(default_factory=dict)
+    bits: Mapping[str, int] = NONE
+    error: Mapping[str, float] = NONE
     normal_bits: int | None = None
 
     def of(self, name: str) -> Asked:

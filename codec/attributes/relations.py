@@ -1,7 +1,5 @@
 """What the components of an entry have to do with each other."""
 
-from dataclasses import replace
-
 import numpy as np
 import numpy.typing as npt
 
@@ -22,7 +20,7 @@ def find(plan: Plan, integers: Integers, dtype: np.dtype[np.generic]) -> Plan:
     """The plan with the relation that most entries obey."""
     n_components = integers.shape[1]
     if isinstance(plan.lattice, Octahedral):
-        return replace(plan, relation=Relation.OCTAHEDRAL, total=plan.lattice.last / 2)
+        return plan._replace(relation=Relation.OCTAHEDRAL, total=plan.lattice.last / 2)
     if n_components < 2:
         return plan
     in_floats = bytes_of_floats(plan.lattice, dtype) > 0
@@ -32,13 +30,13 @@ def find(plan: Plan, integers: Integers, dtype: np.dtype[np.generic]) -> Plan:
         total = _common(lengths, getattr(plan.lattice, "one", 1.0))
         close = np.abs(lengths - total) <= UNIT_TOLERANCE * total
         if close.mean() >= SHARE and (in_floats or total >= LEAST_LENGTH):
-            return replace(plan, relation=Relation.UNIT, total=total)
+            return plan._replace(relation=Relation.UNIT, total=total)
     sums = wide.sum(axis=1)
     total = _common(sums, getattr(plan.lattice, "one", 1.0))
     allowed = SUM_TOLERANCE * abs(total) if in_floats else float(n_components)
     few = not in_floats and abs(total) < 4 * n_components
     if total and not few and (np.abs(sums - total) <= allowed).mean() >= SHARE:
-        return replace(plan, relation=Relation.SUM, total=total)
+        return plan._replace(relation=Relation.SUM, total=total)
     return plan
 
 

@@ -1,6 +1,6 @@
 """Elements (lines, edges, whatever stands beside faces) <-> streams, rows in their order."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -30,7 +30,7 @@ def encode(
     ]
 
 
-def decode(elements: list[EncodedElement], sites: Sites) -> dict[str, Element]:
+def decode(elements: Sequence[EncodedElement], sites: Sites) -> dict[str, Element]:
     """The elements by name, corners being vertices of the output; raises CorruptError."""
     return {element.name: _decode(element, sites) for element in elements}
 
