@@ -25,7 +25,8 @@ def read(
 ) -> Mesh | Scene:
     """The mesh in a file, or its scene; the format is recognised by content, then by suffix.
 
-    path_or_file: a path or a binary file object, read to its end.
+    path_or_file: a path or a binary file object, read to its end.  Buffers of glTF in other files
+    are read from the folder of a path.
     format: "ply", "obj", "off", "stl", "gltf", "glb" or "ebz" where it is not to be recognised.
     triangulate: cut polygons into fans of triangles.
     Raises EbzError (its `source` is the file's name) and OSError.
@@ -37,7 +38,11 @@ def read(
             from ebz.coding import decompress
 
             return decompress(data, memory_limit=memory_limit)
-        return meshes.read_mesh(data, format=format, name=name, triangulate=triangulate)
+        is_path = isinstance(path_or_file, str | os.PathLike)
+        folder = Path(path_or_file).parent if is_path else None
+        return meshes.read_mesh(
+            data, format=format, name=name, folder=folder, triangulate=triangulate
+        )
     except EbzError as error:
         error.source = error.source or name
         raise

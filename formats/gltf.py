@@ -2,12 +2,12 @@
 
 A file of one primitive is a mesh, whose metadata are those of the part and of the scene.  Nodes are
 kept, and no transformation is applied: metadata["gltf"]["document"] is the file's JSON without the
-geometry, metadata["gltf"]["binary"] what else it refers to.  Files with buffers in other files are
-refused.
+geometry, metadata["gltf"]["binary"] what else it refers to.
 """
 
 import json
 from base64 import b64encode
+from pathlib import Path
 from typing import Any
 
 from ebz.codec.errors import MeshError
@@ -23,21 +23,23 @@ from ebz.formats.split import split_vertices
 DOCUMENT = "gltf"
 
 
-def read_gltf(data: bytes) -> Mesh | Scene:
-    """The meshes of a glTF file whose buffers are embedded. Raises MeshError."""
-    return _read(parse_json(data.removeprefix(b"\xef\xbb\xbf")), b"", "gltf")
+def read_gltf(data: bytes, folder: Path | None = None) -> Mesh | Scene:
+    """The meshes of a glTF file whose buffers are embedded or in its folder. Raises MeshError."""
+    return _read(parse_json(data.removeprefix(b"\xef\xbb\xbf")), b"", "gltf", folder)
 
 
-def read_glb(data: bytes) -> Mesh | Scene:
+def read_glb(data: bytes, folder: Path | None = None) -> Mesh | Scene:
     """The meshes of a GLB file. Raises MeshError."""
     document, binary = split_glb(data)
-    return _read(document, binary, "glb")
+    return _read(document, binary, "glb", folder)
 
 
-def _read(document: Any, binary: bytes, format: str) -> Mesh | Scene:
+def _read(document: Any, binary: bytes, format: str, folder: Path | None) -> Mesh | Scene:
+    if not isinstance(document, dict):
+        raise MeshError("glTF: the document is no object")
     try:
         _check_compression(document)
-        body = joined_buffers(document, binary)
+        body = joined_buffers(document, binary, folder)
         parts = read_primitives(document, body)
         metadata = {"format": format, DOCUMENT: without_geometry(document, bytes(body))}
     except (AttributeError, IndexError, KeyError, OverflowError, TypeError, ValueError) as error:

@@ -30,8 +30,8 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 def read_accessor(document: Any, body: bytes | bytearray, number: int) -> Array:
     """(count, ...) values; matrices are lists of their columns. Raises MeshError."""
-    accessor = document["accessors"][number]
-    dtype, shape = np.dtype(COMPONENTS[accessor["componentType"]]), SHAPES[accessor["type"]]
+    accessor = _entry(document, "accessors", number, f"glTF: there is no accessor {number!r}")
+    dtype, shape = _type(accessor, number)
     count = _natural(accessor["count"], number)
     if "bufferView" in accessor:
         place = accessor["bufferView"], accessor.get("byteOffset", 0)
@@ -43,6 +43,13 @@ def read_accessor(document: Any, body: bytes | bytearray, number: int) -> Array:
     if "sparse" in accessor:
         values = _with_sparse(values, document, body, accessor["sparse"], number)
     return values.astype(dtype.newbyteorder("="))
+
+
+def _type(accessor: Any, number: int) -> tuple[np.dtype[Any], tuple[int, ...]]:
+    component, kind = accessor["componentType"], accessor["type"]
+    if component not in COMPONENTS or kind not in SHAPES:
+        raise MeshError(f"glTF: accessor {number}: {kind!r} of components {component!r}")
+    return np.dtype(COMPONENTS[component]), SHAPES[kind]
 
 
 def _with_sparse(
@@ -62,6 +69,13 @@ def _with_sparse(
     return values
 
 
+def _entry(document: Any, name: str, number: Any, missing: str) -> Any:
+    entries = document.get(name, [])
+    if type(number) is not int or not 0 <= number < len(entries):
+        raise MeshError(missing)
+    return entries[number]
+
+
 def _natural(value: Any, number: int) -> int:
     if type(value) is not int or value < 0:
         raise MeshError(f"glTF: accessor {number}: a count of {value!r}")
@@ -78,7 +92,8 @@ def _rows(
     number: int,
 ) -> Array:
     """`count` entries of a buffer view, which may stand apart."""
-    view = document["bufferViews"][place[0]]
+    missing = f"glTF: accessor {number}: there is no buffer view {place[0]!r}"
+    view = _entry(document, "bufferViews", place[0], missing)
     packed, strides = _layout(dtype, shape)
     stride = view.get("byteStride", packed)
     begin, end = place[1], place[1] + (count - 1) * stride + packed

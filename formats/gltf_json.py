@@ -4,8 +4,11 @@ Source: The Khronos Group, glTF 2.0 Specification.
 """
 
 import json
+import re
 from base64 import b64decode
+from pathlib import Path, PurePosixPath
 from typing import Any
+from urllib.parse import unquote
 
 from ebz.codec.errors import MeshError
 
@@ -57,19 +60,20 @@ def make_glb(document: Any, binary: bytes) -> bytes:
     return b"".join([*head, *parts])
 
 
-def joined_buffers(document: Any, binary: bytes) -> bytearray:
-    """All buffers one after another; the document's views are changed to look there."""
+def joined_buffers(document: Any, binary: bytes, folder: Path | None) -> bytearray:
+    """All buffers one after another; the document's views are changed to look there.
+
+    binary: what the first buffer is if it has no address.  folder: where files of buffers are.
+    """
     body = bytearray()
     offsets = []
     for number, buffer in enumerate(document.get("buffers", [])):
-        uri = buffer.get("uri")
-        if uri is None and number == 0:
+        size = buffer["byteLength"]
+        if "uri" not in buffer and number == 0:
             part = binary
-        elif isinstance(uri, str) and uri.startswith("data:") and ";base64," in uri:
-            part = b64decode(uri.split(";base64,", 1)[1], validate=True)
         else:
-            raise MeshError(f"glTF: buffer {number} is in another file, {uri!r}: use a .glb file")
-        if len(part) < buffer["byteLength"]:
+            part = _at_address(buffer.get("uri"), size, folder, f"glTF: buffer {number}")
+        if len(part) < size:
             raise MeshError(f"glTF: buffer {number}: early end at {len(part)} bytes")
         body += b"\0" * (-len(body) % 4)
         offsets.append(len(body))
@@ -80,3 +84,25 @@ def joined_buffers(document: Any, binary: bytes) -> bytearray:
             raise MeshError(f"glTF: buffer view {number} is out of range")
         view |= {"buffer": 0, "byteOffset": offset}
     return body
+
+
+def _at_address(uri: Any, size: int, folder: Path | None, place: str) -> bytes:
+    """The bytes of a buffer within a URI, or the first of a file in the folder or below."""
+    if not isinstance(uri, str):
+        raise MeshError(f"{place}: {uri!r} is no address")
+    if uri.startswith("data:"):
+        try:
+            return b64decode(uri.split(";base64,", 1)[1], validate=True)
+        except (IndexError, ValueError):
+            raise MeshError(f"{place}: malformed base64 in its address") from None
+    name = PurePosixPath(unquote(uri))
+    if re.match(r"[A-Za-z][A-Za-z0-9+.-]*:", uri) or name.is_absolute() or ".." in name.parts:
+        raise MeshError(f"{place} is at {uri!r}, which is not below the file's folder")
+    if folder is None:
+        raise MeshError(f"{place} is in another file, {uri!r}: name the file, or use a .glb file")
+    try:
+        with (folder / name).open("rb") as file:
+            return file.read(size)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise MeshError(f"{place}: {uri}: {reason}") from None

@@ -12,7 +12,7 @@ from ebz.formats.dropped import warn_attributes, warn_dropped
 from ebz.formats.gltf_accessors import Array
 from ebz.formats.gltf_attributes import TARGET, as_gltf
 from ebz.formats.gltf_document import Builder
-from ebz.formats.gltf_primitives import LINES, POINTS, PRIMITIVE
+from ebz.formats.gltf_primitives import LINE_STRIP, LINES, POINTS, PRIMITIVE
 
 
 def write_primitives(mesh: Mesh, builder: Builder) -> Iterator[dict[str, Any]]:
@@ -40,7 +40,8 @@ def _modes(mesh: Mesh, kept: dict[str, Any]) -> Iterator[tuple[int | None, Array
         if name == "point" and len(element.corners):
             yield POINTS, element.corners
         elif name == "line" and len(element.corners):
-            yield LINES, _segments(element)
+            is_strip = len(element) == 1 and len(element.corners) > 2
+            yield (LINE_STRIP, element.corners) if is_strip else (LINES, _segments(element))
         elif len(element):
             warn_dropped(f"glTF cannot carry elements: {name!r} ({len(element)})")
     if not mesh.n_faces and not mesh.elements:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from ebz.codec.errors import OptionError
@@ -24,6 +25,8 @@ MODULES = {
     "glb": ("gltf", "gltf"),
 }
 SCENES = ("gltf", "glb")
+# May refer to files beside them.
+WITH_FILES = SCENES
 
 
 def read_mesh(
@@ -31,17 +34,20 @@ def read_mesh(
     *,
     format: str | None = None,
     name: str | None = None,
+    folder: Path | None = None,
     triangulate: bool = False,
 ) -> Mesh | Scene:
     """The mesh or scene of a file's bytes; metadata["format"] says which format it had.
 
     format: one of FORMATS; None: by content, else by the suffix of `name`.
+    folder: where files are that it refers to; None: none are read.
     triangulate: cut polygons into fans of triangles.
     Warns (DroppedWarning) of what is left out. Raises MeshError, OptionError.
     """
     content = data if isinstance(data, bytes) else bytes(data)
     chosen = format_of(content, name) if format is None else format
-    found = _reader(chosen)(content)
+    reader = _function(0, "read", chosen)
+    found: Mesh | Scene = reader(content, folder) if chosen in WITH_FILES else reader(content)
     if not triangulate:
         return found
     if isinstance(found, Scene):
@@ -65,11 +71,6 @@ def write_mesh(mesh: Mesh | Scene, format: str) -> bytes:
     if isinstance(mesh, Scene):
         mesh = join(mesh, format)
     return _writer(format)(triangulated(mesh, format.upper()) if format == "stl" else mesh)
-
-
-def _reader(format: str) -> Callable[[bytes], Mesh | Scene]:
-    reader: Callable[[bytes], Mesh | Scene] = _function(0, "read", format)
-    return reader
 
 
 def _writer(format: str) -> Callable[[Any], bytes]:

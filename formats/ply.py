@@ -13,7 +13,7 @@ What the format leaves open, and what is chosen here:
 - One row is one line in ascii; blank lines are passed over. A row of other length is an error.
 - Lists of one length in all rows become an (n, length) array; others are padded with zeros, and
   the attribute `NAME:count` says how long they are. `NAME:count` is written back as the list's.
-- What follows the last element is left out with a warning. Triangle strips are refused.
+- What follows the last element is left out with a warning. Triangle strips become triangles.
 - Spaces within header lines are not kept, but for those of comments and obj_info; line ends are.
 """
 
@@ -26,7 +26,7 @@ from ebz.codec.arrays import face_dtype
 from ebz.codec.elements import Element as Rows
 from ebz.codec.errors import MeshError
 from ebz.codec.mesh import Mesh
-from ebz.formats import ply_ascii, ply_binary
+from ebz.formats import ply_ascii, ply_binary, ply_strips
 from ebz.formats.dropped import warn_dropped
 from ebz.formats.numbers import rendered
 from ebz.formats.ply_columns import Column
@@ -48,6 +48,7 @@ def read_ply(data: bytes) -> Mesh:
     header = read_header(data)
     _check_elements(header)
     columns = _read_columns(data, header)
+    ply_strips.strips_as_faces(header, columns)
     vertices = _vertices(header, columns["vertex"])
     tables = {e.name: read_table(e, columns[e.name], header) for e in header.elements}
     for name, table in tables.items():
@@ -83,8 +84,8 @@ def _check_elements(header: Header) -> None:
         if found[0].count_type:
             raise MeshError(f"element 'vertex': property {name!r} is a list")
     for element in header.elements:
-        if element.name == "tristrips" and element.count:
-            raise MeshError("element 'tristrips': triangle strips are not read: write faces")
+        if element.name == ply_strips.NAME:
+            ply_strips.check_strips(header, element)
         if element.name == "face" and element.count:
             check_named(element)
         elif not element.properties and element.count:

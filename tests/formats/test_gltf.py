@@ -2,6 +2,8 @@
 
 import json
 import warnings
+from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -280,6 +282,10 @@ def with_primitive(**members: Any) -> bytes:
     return document.glb()
 
 
+def with_buffer(uri: Any) -> bytes:
+    return json.dumps({"buffers": [{"byteLength": 1, "uri": uri}]}).encode()
+
+
 GOOD = changed()
 MALFORMED = [
     (b"glTF", "offset 0: not a GLB header"),
@@ -288,9 +294,16 @@ MALFORMED = [
     (GOOD[:12] + bytes(8), "offset 12: there is no JSON chunk"),
     (b"{", "glTF: malformed JSON: "),
     (b"[" * 100000, "glTF: malformed JSON: "),
-    (b"[]", "glTF: malformed document: "),
+    (b"[]", "glTF: the document is no object"),
     (make_glb({"buffers": [{"byteLength": 99}]}, b"1234"), "glTF: buffer 0: early end at 4 bytes"),
-    (make_glb({"buffers": [{"byteLength": 1, "uri": "../a.bin"}]}, b""), "is in another file"),
+    (with_buffer("a.bin"), "glTF: buffer 0 is in another file, 'a.bin': name the file"),
+    (with_buffer("a/../../a.bin"), "glTF: buffer 0 is at 'a/../../a.bin', which is not below"),
+    (with_buffer("/a.bin"), "glTF: buffer 0 is at '/a.bin', which is not below"),
+    (with_buffer("%2e%2E/a.bin"), "which is not below"),
+    (with_buffer("file:a.bin"), "which is not below"),
+    (with_buffer("data:;base64,?"), "glTF: buffer 0: malformed base64 in its address"),
+    (with_buffer("data:;a"), "glTF: buffer 0: malformed base64 in its address"),
+    (with_buffer(3), "glTF: buffer 0: 3 is no address"),
     (changed(bufferViews=[{"buffer": 0, "byteLength": 99}]), "buffer view 0 is out of range"),
     (changed(extensionsRequired=["KHR_draco_mesh_compression"]),
      "glTF: KHR_draco_mesh_compression is not read: decompress the file first"),
@@ -299,9 +312,11 @@ MALFORMED = [
     (with_accessor(count="3"), "glTF: accessor 0: a count of '3'"),
     (with_accessor(byteOffset=-4), "glTF: accessor 0: 3 values past the end"),
     (with_accessor(byteOffset=4), "glTF: accessor 0: 3 values past the end"),
-    (with_accessor(bufferView=9), "glTF: malformed document: "),
-    (with_accessor(bufferView=None), "glTF: malformed document: "),
-    (with_accessor(componentType=9999), "glTF: malformed document: KeyError(9999)"),
+    (with_accessor(bufferView=9), "glTF: accessor 0: there is no buffer view 9"),
+    (with_accessor(bufferView=None), "glTF: accessor 0: there is no buffer view None"),
+    (with_accessor(componentType=9999), "glTF: accessor 0: 'VEC3' of components 9999"),
+    (with_accessor(type="VEC5"), "glTF: accessor 0: 'VEC5' of components 5126"),
+    (with_primitive(indices=7), "glTF: there is no accessor 7"),
     (with_accessor(type="VEC2"), "vertices: shape (3, 2) is not (n, 3)"),
     (with_primitive(attributes={}), "glTF: mesh 0: a primitive without positions"),
     (with_primitive(mode=7), "glTF: mesh 0: unknown mode 7"),
@@ -471,3 +486,34 @@ def test_names_of_other_formats_become_those_of_gltf() -> None:
     assert mesh.metadata["gltf_primitive"]["normalized"] == ["COLOR_0"]
     assert found["NORMAL"].tolist() == 4 * [[0, 0, 1]]
     assert np.array_equal(found["TEXCOORD_0"], uv.astype(np.float32))
+
+
+def beside(tmp_path: Path, name: str, uri: str) -> Path:
+    """A glTF file whose buffer is in a file."""
+    document, body = split_glb(triangle().glb())
+    document["buffers"][0]["uri"] = uri
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / name).write_bytes(body)
+    (tmp_path / "a.gltf").write_text(json.dumps(document))
+    return tmp_path / "a.gltf"
+
+
+def test_buffers_in_files_beside_are_read(tmp_path: Path) -> None:
+    mesh = ebz.read(beside(tmp_path, "a b.bin", "parts/a%20b.bin"))
+    assert np.array_equal(mesh.vertices, ebz.read(BytesIO(triangle().glb())).vertices)
+    ebz.write(tmp_path / "b.gltf", mesh)
+    assert ebz.verify(ebz.compress(mesh), ebz.read(tmp_path / "b.gltf")).equal
+
+
+def test_buffers_in_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:
+    path = beside(tmp_path, "a.bin", "parts/b.bin")
+    with pytest.raises(MeshError, match=r"buffer 0: parts/b.bin: No such file") as caught:
+        ebz.read(path)
+    assert caught.value.source == str(path)
+
+
+def test_lines_of_one_row_come_back_as_one() -> None:
+    document = triangle()
+    document.json["meshes"][0]["primitives"][0]["mode"] = 2  # a loop
+    mesh = come_back(document.glb())
+    assert mesh.elements["line"].offsets.tolist() == [0, 4]

@@ -145,3 +145,22 @@ def test_corner_names_that_are_taken_are_named() -> None:
         "PLY cannot carry face corner attribute 'vertex_indices' under this name",
     ]
     assert list(again.face_attributes) == ["a"]
+
+
+@pytest.mark.parametrize("format", ["ascii", "binary_little_endian"])
+def test_triangle_strips_become_triangles(format) -> None:
+    header = f"ply\nformat {format} 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+    header += "property float z\nelement tristrips 2\nproperty list int int vertex_indices\n"
+    points, strips = np.arange(18, dtype="<f4"), [[0, 1, 2, 3, -1, 4, 5], [3, 4, 5]]
+    if format == "ascii":
+        body = " ".join(f"{x:g}{'' if i % 3 < 2 else chr(10)}" for i, x in enumerate(points))
+        body += "".join(" ".join(map(str, [len(row), *row])) + "\n" for row in strips)
+        data = (header + "end_header\n" + body).encode()
+    else:
+        rows = [np.array([len(row), *row], "<i4").tobytes() for row in strips]
+        data = (header + "end_header\n").encode() + points.tobytes() + b"".join(rows)
+    mesh = read_mesh(data)
+    assert mesh.faces.tolist() == [[0, 1, 2], [1, 3, 2], [3, 4, 5]]
+    again = read_mesh(write_mesh(mesh, "ply"))
+    assert np.array_equal(again.faces, mesh.faces)
+    assert again.metadata == mesh.metadata

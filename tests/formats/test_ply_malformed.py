@@ -73,8 +73,8 @@ MALFORMED = [
         "element 'face': property 'vertex_indices' is no list of integers",
     ),
     (
-        edited("face 1", "tristrips 1"),
-        "element 'tristrips': triangle strips are not read: write faces",
+        edited("element face 1", "element tristrips 0\nproperty list int int a\nelement face 1"),
+        "element 'tristrips': strips beside faces are not read",
     ),
     (edited("0 1 2\n", "0 1\n"), "element 'vertex': row 0: property 'z': early end of line"),
     (edited("3 4 5\n", "3 4 5 6\n"), "element 'vertex': row 1: expected end of line, found '6'"),
