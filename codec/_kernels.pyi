@@ -148,6 +148,11 @@ def write_singles(singles: Annotated[NDArray[numpy.float32], dict(shape=(None,),
     The float64 nearest to each rounded to significant digits, 0 for all of them.
     """
 
+def list_different(values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    The different ones, ascending, and which each is; nothing where many are.
+    """
+
 @overload
 def bounds(coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[tuple[float, float, float], tuple[float, float, float]]: ...
 

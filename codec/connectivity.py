@@ -25,6 +25,9 @@ Int32s = npt.NDArray[np.int32]
 Int64s = npt.NDArray[np.int64]
 WordModel = AnyTable | Effort
 
+# Of a symbol; less than what the certified tables take, on any mesh that is not tiny.
+SURE_BITS = 1.5
+
 
 class WordCounts(NamedTuple):
     """The integers that frame a word.
@@ -105,6 +108,11 @@ class EncodedWord(NamedTuple):
     special_integers: bytes  # b"" where an adaptive model codes them in the word
     gluing: bytes
 
+    @property
+    def size(self) -> int:
+        """Bytes of the symbols and special S."""
+        return len(self.word) + len(self.special_integers)
+
 
 class OutputOrder(NamedTuple):
     """Where the faces and vertices of the decoded mesh come from.
@@ -152,7 +160,8 @@ def encode(
     """The word of any list of faces under the model that makes it shortest.
 
     faces: (m, 3), or (k,) corners of polygons beside (m + 1,) offsets, for which tables are no
-    models.  Linear time but for sorting what is not manifold.
+    models.  models: the others are tried where the first takes more than SURE_BITS.  Linear time
+    but for sorting what is not manifold.
 
     Raises MeshError where there are more faces or vertices than can be coded, OptionError where
     there is no model for polygons.
@@ -169,8 +178,10 @@ def encode(
         symbols, specials = traversal.symbols, traversal.specials
         return EncodedWord(counts, model, symbols, specials, *streams, gluing)
 
-    words = threads.run(under, models)
-    return min(words, key=lambda word: len(word.word) + len(word.special_integers)), surface, order
+    words = [under(models[0])]
+    if 8 * words[0].size > SURE_BITS * counts.n_symbols:
+        words += threads.run(under, models[1:])
+    return min(words, key=lambda word: word.size), surface, order
 
 
 def decode(

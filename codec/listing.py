@@ -9,21 +9,17 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ebz.codec import _kernels
 from ebz.codec.errors import CorruptError
 from ebz.codec.integers import decode_columns, encode_columns
 from ebz.codec.lattice import Integers
 
 Unsigned = npt.NDArray[np.uint64]
 
-MAX_LISTED = 1 << 16
-# Of the first ones, where hardly any come again, no list will do.
-N_TRIED = 1 << 11
 # What there is of a magnitude.
 PLAIN, MIRRORED, BOTH = range(3)
 MAX_PLAIN_BITS = 63
 HAS_BOTH = 64
-# Of long lists one way is as good as another.
-N_LONG = 1 << 12
 
 
 class Listing(NamedTuple):
@@ -57,26 +53,15 @@ def listing_of(found: Integers) -> Listing:
 
 def listed(integers: Integers) -> tuple[Listing, Integers] | None:
     """The list, and which is where; None if many are different, or there are none."""
-    if not _is_sparse(np.unique(integers.reshape(-1)[:N_TRIED]), min(integers.size, N_TRIED)):
-        return None
-    found, which = np.unique(integers, return_inverse=True)
-    if len(found) > MAX_LISTED or not _is_sparse(found, integers.size):
-        return None
-    return listing_of(found), which.reshape(integers.shape).astype(np.int64)
+    found, which = _kernels.list_different(integers.reshape(-1))
+    return (listing_of(found), which.reshape(integers.shape)) if len(found) else None
 
 
-def _is_sparse(found: Integers, n: int) -> bool:
-    """Whether many of n integers come again, but few of those within their range do."""
-    if not n or len(found) > 8 + 2 * n // 3:
-        return False
-    return 8 * len(found) < int(found[-1]) - int(found[0])
-
-
-def _widths(steps: Unsigned) -> range:
-    """How many bits of each step may be plain."""
+def _widths(steps: Unsigned) -> list[int]:
+    """How many bits of each step may be plain: none, or nearly those of the middle one."""
     middle = int(np.median(steps)) if len(steps) else 0
     most = min(middle.bit_length(), MAX_PLAIN_BITS)
-    return range(max(0, most - 1), most) if len(steps) > N_LONG else range(most + 1)
+    return sorted({0, max(0, most - 3), max(0, most - 1)})
 
 
 def _encode(kinds: Unsigned, steps: Unsigned, n_plain: int) -> bytes:

@@ -2,6 +2,7 @@
 
 import enum
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -87,30 +88,49 @@ def encode(
     n_along: how many points are coded, the first; those past the surface have no neighbours.
     """
     values = points.integers[:n_along]
-    coded = _shortest(surface, values, _candidates(points, dtype, method))
+    plain = partial(_first, surface, values, _candidates(points, dtype, method))
     found = listed(values)
     if found is None:
-        return coded
+        return _at_last(surface, values, plain())
     listing, which = found
-    other = _shortest(surface, which, _with_next(method, n_along))
-    coding = other.coding._replace(is_listed=True)
-    return min(coded, Coded(other.data, coding, listing), key=_size)
+    first = _first(surface, which, _with_next(method, n_along))
+    # A list of a third of the stream or less pays, but on regular grids, which need none.
+    if 3 * listing.size > first.size or _is_regular(first, n_along):
+        other = plain()
+        if _is_regular(other, n_along) or other.size <= first.size + listing.size:
+            return _at_last(surface, values, other)
+    coded = _at_last(surface, which, first)
+    return Coded(coded.data, coded.coding._replace(is_listed=True), listing)
 
 
-def _shortest(surface: Surface, values: Integers, methods: Sequence[Method]) -> Coded:
+def _first(surface: Surface, values: Integers, methods: Sequence[Method]) -> Coded:
+    """The shortest by these methods."""
+    best = min(_each(surface, values, methods), key=_size)
+    if not best.data:  # more than the 32 bits of the fast and medium methods
+        return _first(surface, values, [Method.LIGHT])
+    return best
+
+
+def _at_last(surface: Surface, values: Integers, first: Coded) -> Coded:
+    """What is regular is coded by the strong method too, which may take far less."""
+    if not _is_regular(first, len(values)):
+        return first
+    return min([first, *_each(surface, values, [Method.STRONG])], key=_size)
+
+
+def _is_regular(coded: Coded, n: int) -> bool:
+    """Whether the light method takes less than a bit a point, as it does on regular grids."""
+    return coded.coding.method == Method.LIGHT and 8 * len(coded.data) < n
+
+
+def _each(surface: Surface, values: Integers, methods: Sequence[Method]) -> list[Coded]:
     def by(chosen: Coding) -> Coded:
         along = _along(surface, len(values), chosen.cut)
         placed = values if along.order is None else values[along.order]
         flat = placed.reshape(-1)
         return Coded(_kernels.encode_positions(*along.arrays, flat, chosen.method), chosen)
 
-    best = min(threads.run(by, _cuts(surface, methods)), key=_size)
-    if not best.data:  # more than the 32 bits of the fast and medium methods
-        return _shortest(surface, values, [Method.LIGHT])
-    # Where light takes less than a bit a point, as on regular grids, strong takes far less.
-    if best.coding.method != Method.LIGHT or 8 * len(best.data) >= len(values):
-        return best
-    return min([best, *map(by, _cuts(surface, [Method.STRONG]))], key=_size)
+    return threads.run(by, _cuts(surface, methods))
 
 
 def _size(coded: Coded) -> int:

@@ -1,10 +1,12 @@
-// Coordinates <-> integers on a lattice.
+// Coordinates <-> integers on a lattice, and those of which few are different.
 #include <algorithm>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "../lattices.hpp"
+#include "../listing.hpp"
 #include "../singles.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
@@ -29,6 +31,11 @@ Array<double> write_singles(const Input<float>& singles, int digits) {
         ebz::write_singles(view(singles), digits, values);
         return values;
     }));
+}
+
+std::tuple<Array<int64_t>, Array<int64_t>> list_different(const Input<int64_t>& values) {
+    ebz::Listed listed = without_gil([&] { return ebz::list_different(view(values)); });
+    return {to_numpy(std::move(listed.found)), to_numpy(std::move(listed.which))};
 }
 
 template <class T>
@@ -90,6 +97,8 @@ void bind_lattices(nb::module_& m) {
           "The significant digits of float32 that all values but max_misses are, 0 if all of them, -1 if they are none.");
     m.def("write_singles", &write_singles, "singles"_a, "digits"_a,
           "The float64 nearest to each rounded to significant digits, 0 for all of them.");
+    m.def("list_different", &list_different, "values"_a,
+          "The different ones, ascending, and which each is; nothing where many are.");
     bind_lattices_of<float>(m);
     bind_lattices_of<double>(m);
 }
