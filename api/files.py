@@ -38,10 +38,12 @@ def read(
             from ebz.coding import decompress
 
             return decompress(data, memory_limit=memory_limit)
-        is_path = isinstance(path_or_file, str | os.PathLike)
-        folder = Path(path_or_file).parent if is_path else None
         return meshes.read_mesh(
-            data, format=format, name=name, folder=folder, triangulate=triangulate
+            data,
+            format=format,
+            name=name,
+            folder=_folder(path_or_file),
+            triangulate=triangulate,
         )
     except EbzError as error:
         error.source = error.source or name
@@ -86,6 +88,10 @@ def _name(path_or_file: PathOrFile) -> str | None:
         return os.fspath(path_or_file)
     name = getattr(path_or_file, "name", None)
     return name if isinstance(name, str) else None
+
+
+def _folder(path_or_file: PathOrFile) -> Path | None:
+    return Path(path_or_file).parent if isinstance(path_or_file, str | os.PathLike) else None
 
 
 def _content(path_or_file: PathOrFile) -> bytes:

@@ -4,6 +4,8 @@ A row of the element `tristrips` is one list of vertices, in which -1 begins ano
 other triangle of a strip is turned round.
 """
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -37,7 +39,7 @@ def check_strips(header: Header, element: Element) -> None:
         raise MeshError(f"element {NAME!r}: expected one list of signed integers")
 
 
-def _triangles(strips: Lists) -> npt.NDArray[np.int64]:
+def _triangles(strips: Lists) -> npt.NDArray[Any]:
     """(n, 3) vertices."""
     ends = np.cumsum(strips.lengths, dtype=np.int64)[:-1]
     vertex = np.insert(strips.values.astype(np.int64), ends, BREAK)
@@ -47,4 +49,7 @@ def _triangles(strips: Lists) -> npt.NDArray[np.int64]:
     broken = vertex == BREAK
     first = first[~(broken[:-2] | broken[1:-1] | broken[2:])]
     odd = (first - begin[first]) % 2
-    return vertex[np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)]
+    triangles: npt.NDArray[Any] = vertex[
+        np.stack([first, first + 1 + odd, first + 2 - odd], axis=1)
+    ]
+    return triangles
