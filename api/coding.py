@@ -1,21 +1,17 @@
 """Mesh <-> bytes in memory."""
 
-import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, Literal, overload
 
 import numpy as np
 
+from ebz import options
 from ebz.codec import scenes
-from ebz.codec.attributes.octahedral import NORMAL_BITS
-from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.attributes.rounding import require_names
 from ebz.codec.connectivity import OutputOrder
-from ebz.codec.errors import MeshError, OptionError
-from ebz.codec.fitting import Precision
-from ebz.codec.lattice import MAX_BITS, GridLattice
-from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE, LEVELS
+from ebz.codec.errors import OptionError
+from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.models.load import AnyTable, load
@@ -27,9 +23,9 @@ from ebz.codec.scenes import Encoded
 from ebz.codec.threads import using as run_on
 from ebz.formats import ebz_file
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+from ebz.options import Grid
 
 BytesLike = bytes | bytearray | memoryview
-Grid = tuple[float | Sequence[float], float]
 
 
 @overload
@@ -135,22 +131,20 @@ def compress(
     compress(decompress(data)) gives the same bytes with the same options.  Raises OptionError and
     MeshError.
     """
-    if not isinstance(mesh, Mesh | Scene):
-        raise MeshError(f"{type(mesh).__name__} is neither a Mesh nor a Scene")
-    lattice = None if grid is None else _grid(grid)
-    _check_options(bits, max_error, lattice, level)
+    mesh = options.content(mesh)
+    level, precision = options.level(level), options.precision(bits, max_error, grid)
     table = None if model is None and not embed_model else load_model(model)
-    attributes = _attribute_precision(attribute_bits or {}, attribute_error or {}, normal_bits)
+    attributes = options.attribute_precision(attribute_bits, attribute_error, normal_bits)
     require_names(mesh.parts if isinstance(mesh, Scene) else [mesh], attributes)
     with run_on(threads):
         encoded, orders = scenes.encode(
             mesh,
             table,
             level=level,
-            precision=Precision(bits, max_error, lattice),
+            precision=precision,
             attribute_precision=attributes,
             keep_order=keep_order,
-            progress=progress,
+            progress=options.progress(progress),
         )
     data = ebz_file.write(encoded, embed_model=embed_model or _is_file(model))
     if not return_permutation:
@@ -173,18 +167,13 @@ def decompress(
     Raises NotEbzError, VersionError, TruncatedError, CorruptError and MemoryLimitError.
     """
     with run_on(threads):
-        return scenes.decode(parse(data, memory_limit), progress=progress)
+        return scenes.decode(parse(data, memory_limit), progress=options.progress(progress))
 
 
 def parse(data: BytesLike, memory_limit: int) -> Encoded:
     """The structure of an .ebz file, its declared sizes checked."""
-    return ebz_file.read(as_bytes(data), memory_limit=memory_limit)
-
-
-def as_bytes(data: BytesLike) -> memoryview:
-    """A view of anything bytes-like, byte by byte."""
-    view = memoryview(data)
-    return view.cast("B") if view.c_contiguous else memoryview(view.tobytes())
+    limit = options.memory_limit(memory_limit)
+    return ebz_file.read(options.as_bytes(data), memory_limit=limit)
 
 
 def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
@@ -193,6 +182,8 @@ def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:
     Raises OptionError where there is none, or where the table guarantees nothing.  Those built in
     are not certified again.
     """
+    if not isinstance(model, AnyTable | str | os.PathLike | None):
+        raise OptionError(f"model is {model!r}, neither a name, a path nor a table")
     table = model if isinstance(model, AnyTable) else load(model or DEFAULT_TABLE)
     try:
         guaranteed_bits(table)
@@ -210,46 +201,3 @@ def _permutation(order: OutputOrder, keep_order: bool) -> Permutation:
 
 def _is_file(model: Any) -> bool:
     return model is not None and not isinstance(model, AnyTable) and str(model) not in table_names()
-
-
-def _grid(grid: Grid) -> GridLattice:
-    try:
-        origin, step = grid
-        x, y, z = np.broadcast_to(np.asarray(origin, np.float64), 3).tolist()
-        step = float(step)
-    except (TypeError, ValueError):
-        raise OptionError(f"grid is {grid!r}, not (origin, step)") from None
-    if not (math.isfinite(step) and step > 0):
-        raise OptionError(f"the step of the grid is {step}, not a finite number above 0")
-    if not all(map(math.isfinite, (x, y, z))):
-        raise OptionError(f"the origin of the grid is {origin}, not finite")
-    return GridLattice((x, y, z), step)
-
-
-def _attribute_precision(
-    bits: Mapping[str, int], error: Mapping[str, float], normal_bits: int | None
-) -> AttributePrecision:
-    for name, n in bits.items():
-        if name in error:
-            raise OptionError(f"bits and error of attribute {name!r} exclude each other")
-        if n not in range(1, MAX_BITS + 1):
-            raise OptionError(f"bits of attribute {name!r} are {n}, not 1 to {MAX_BITS}")
-    for name, limit in error.items():
-        if not (math.isfinite(limit) and limit >= 0):
-            raise OptionError(f"error of attribute {name!r} is {limit}, not at least 0 and finite")
-    if normal_bits is not None and normal_bits not in NORMAL_BITS:
-        raise OptionError(f"normal_bits is {normal_bits}, not 2 to {NORMAL_BITS[-1]}")
-    return AttributePrecision(dict(bits), dict(error), normal_bits)
-
-
-def _check_options(
-    bits: int | None, max_error: float | None, grid: GridLattice | None, level: int
-) -> None:
-    if sum(option is not None for option in (bits, max_error, grid)) > 1:
-        raise OptionError("bits, max_error and grid exclude each other")
-    if bits is not None and bits not in range(1, MAX_BITS + 1):
-        raise OptionError(f"bits is {bits}, not 1 to {MAX_BITS}")
-    if max_error is not None and not (math.isfinite(max_error) and max_error >= 0):
-        raise OptionError(f"max_error is {max_error}, not a finite number of at least 0")
-    if level not in LEVELS:
-        raise OptionError(f"level is {level}, not {LEVELS[0]} to {LEVELS[-1]}")

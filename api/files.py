@@ -4,11 +4,12 @@ import os
 from pathlib import Path
 from typing import BinaryIO
 
-from ebz.codec.errors import EbzError
+from ebz.codec.errors import EbzError, OptionError
 from ebz.codec.mesh import Mesh
 from ebz.codec.scene import Scene
 from ebz.formats import meshes
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+from ebz.options import content
 
 EBZ = "ebz"
 EBZ_SUFFIX = ".ebz"
@@ -31,7 +32,7 @@ def read(
     triangulate: cut polygons into fans of triangles.
     Raises EbzError (its `source` is the file's name) and OSError.
     """
-    name = _name(path_or_file)
+    name = _name(path_or_file, "read")
     data = _content(path_or_file)
     try:
         if format == EBZ or (format is None and _is_ebz(data)):
@@ -55,7 +56,8 @@ def write(path_or_file: PathOrFile, mesh: Mesh | Scene, *, format: str | None = 
 
     What the format cannot carry is a DroppedWarning that names it.  Raises EbzError and OSError.
     """
-    name = _name(path_or_file)
+    name = _name(path_or_file, "write")
+    mesh = content(mesh)
     try:
         data = _encode(mesh, format or _format_for(name, mesh))
     except EbzError as error:
@@ -83,9 +85,13 @@ def _format_for(name: str | None, mesh: Mesh | Scene) -> str:
     return meshes.format_of_suffix(suffix) or str(mesh.metadata.get("format", default))
 
 
-def _name(path_or_file: PathOrFile) -> str | None:
+def _name(path_or_file: PathOrFile, method: str) -> str | None:
+    """What errors call the file; raises OptionError where it is none."""
     if isinstance(path_or_file, str | os.PathLike):
         return os.fspath(path_or_file)
+    if not hasattr(path_or_file, method):
+        kind = type(path_or_file).__name__
+        raise OptionError(f"{kind} is neither a path nor a binary file to {method}")
     name = getattr(path_or_file, "name", None)
     return name if isinstance(name, str) else None
 

@@ -16,9 +16,10 @@ from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.scene import Scene, in_part
 from ebz.codec.scene_statistics import SceneStats
 from ebz.codec.statistics import Stats
-from ebz.coding import BytesLike, as_bytes, compress, parse
+from ebz.coding import BytesLike, compress, parse
 from ebz.formats import ebz_file
 from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+from ebz.options import as_bytes, content
 
 
 def stats(
@@ -28,8 +29,7 @@ def stats(
 
     Of a scene, those of every part and their sums.  Raises what decompress raises.
     """
-    content = compress(data) if isinstance(data, Mesh | Scene) else data
-    view = as_bytes(content)
+    view = as_bytes(compress(data) if isinstance(data, Mesh | Scene) else data)
     encoded = parse(view, memory_limit)
     frame, sizes = ebz_file.sizes(view)
     if isinstance(encoded, EncodedMesh):
@@ -71,20 +71,21 @@ def verify(
 
     Raises what decompress raises, and EbzError where vertices cannot be told apart.
     """
+    original = None if against is None else content(against)
     encoded = parse(data, memory_limit)
-    content = scenes.decode(encoded)
+    decoded = scenes.decode(encoded)
     checked = ["checksums", "every stream", "digest"]
-    if against is None:
-        return summary(content, checked)
+    if original is None:
+        return summary(decoded, checked)
     parts = [encoded] if isinstance(encoded, EncodedMesh) else encoded.parts
     keeps_order = any(part.streams.order.vertices is not None for part in parts)
     lattices = [part.lattice for part in parts]
     verdict = compare_parts(
-        content,
-        against,
+        decoded,
+        original,
         lattices,
         checked,
         attributes=[lattices_of(part) for part in parts],
         keeps_order=keeps_order,
     )
-    return with_metadata(verdict, content, against)
+    return with_metadata(verdict, decoded, original)

@@ -1,6 +1,7 @@
 """What arrays of a mesh must be: shapes, dtypes and indices, checked where a mesh is made."""
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,8 @@ def native(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 def checked_attributes(owner: str, attributes: Attributes, n: int) -> Attributes:
     """The attributes as contiguous arrays of n entries; raises MeshError where one has others."""
+    if not isinstance(attributes, Mapping) or not all(isinstance(n, str) for n in attributes):
+        raise MeshError(f"{owner} attributes are not a dict of arrays by name")
     checked = {}
     for name, values in attributes.items():
         array = np.ascontiguousarray(values)
@@ -42,7 +45,7 @@ def checked_attributes(owner: str, attributes: Attributes, n: int) -> Attributes
             raise MeshError(f"{owner} attribute {name!r}: more than {MAX_DIMENSIONS} dimensions")
         if math.prod(filter(None, array.shape[1:])) >= MAX_ENTRY:
             raise MeshError(f"{owner} attribute {name!r}: entries of shape {array.shape[1:]}")
-        checked[str(name)] = native(array)
+        checked[name] = native(array)
     return checked
 
 

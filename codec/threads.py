@@ -17,8 +17,8 @@ _threads: ContextVar[int] = ContextVar("threads", default=1)
 @contextmanager
 def using(n: int) -> Iterator[None]:
     """Lets `run` take up to n threads in this context; 0 means one per core."""
-    if n < 0:
-        raise OptionError(f"threads is {n}, not at least 0")
+    if not hasattr(n, "__index__") or n < 0:
+        raise OptionError(f"threads is {n!r}, not an integer of at least 0")
     token = _threads.set(n or os.cpu_count() or 1)
     try:
         yield

@@ -24,7 +24,7 @@ MESH = random_triangulation(300, seed=7)
         ({"bits": 31}, "bits is 31, not 1 to 30"),
         ({"bits": -1}, "bits is -1"),
         ({"bits": 7.5}, "bits is 7.5, not 1 to 30"),
-        ({"bits": "7"}, "bits is 7, not 1 to 30"),
+        ({"bits": "7"}, "bits is '7', not 1 to 30"),
         ({"max_error": -1.0}, "max_error is -1.0"),
         ({"max_error": float("nan")}, "max_error is nan"),
         ({"max_error": float("inf")}, "max_error is inf"),
