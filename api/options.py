@@ -30,7 +30,8 @@ def content(mesh: Any) -> Mesh | Scene:
                 raise MeshError(f"part {number} is {_kind(part)}, not a Mesh")
     elif not isinstance(mesh, Mesh):
         raise MeshError(f"{type(mesh).__name__} is neither a Mesh nor a Scene")
-    return mesh
+    checked: Mesh | Scene = mesh
+    return checked
 
 
 def as_bytes(data: Any) -> memoryview:
@@ -50,7 +51,7 @@ def level(value: Any) -> int:
     return _integer("level is", value, LEVELS)
 
 
-def memory_limit(value: Any) -> int:
+def memory_limit(value: Any) -> Any:
     """A number of bytes; raises OptionError."""
     if not isinstance(value, int | float | np.number):
         raise OptionError(f"memory_limit is {value!r}, not a number of bytes")
