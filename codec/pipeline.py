@@ -104,7 +104,7 @@ def encode(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
     )
     placed = lattice.taken(stored, order.vertices)
-    sites = Sites(surface, split.vertex, placed, split.site, kept)
+    sites = Sites(surface, split, placed, kept)
     of_vertices, of_faces, of_corners = _encode_attributes(
         mesh, order, sites, attribute_precision, fast=has_fast_attributes(level)
     )
@@ -171,7 +171,7 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     vertices = split.at_sites(lattice.restore(points, encoded.dtype, exact))
     report("attributes", 3, N_STAGES)
     kept = _decode_order(encoded, surface, split, integers)
-    sites = Sites(surface, split.vertex, vertices, split.site, kept)
+    sites = Sites(surface, split, vertices, kept)
     carried = Carried(
         coding.decode(encoded.vertex_attributes, sites.by_vertex)
         if encoded.vertex_attributes

@@ -59,14 +59,15 @@ class Triangles(NamedTuple):
         """Those of the corners of the surface's triangles, of the corners here."""
         return values if self.corner is None else values[self.corner]
 
-    def numbered(self, item: Int32s, n: int) -> tuple[Int32s, Int32s | None]:
+    def numbered(self, item: Int32s, n: int, *, as_they_are: bool) -> tuple[Int32s, Int32s | None]:
         """Of n items by corner, new numbers by corner here, and the item of each number.
 
         Numbers are by first corner here, then of what has none; None where they are as they were.
+        as_they_are: whether they were by first corner of the surface's triangles.
         """
-        if self.corner is None:
+        if self.corner is None and as_they_are:
             return item, None
-        number, first = _kernels.number_by_first_use(item[self.corner], n)
+        number, first = _kernels.number_by_first_use(self.at_corners(item), n)
         is_left = np.ones(n, bool)
         is_left[first] = False
         return number, np.concatenate([first, np.flatnonzero(is_left).astype(np.int32)])

@@ -183,7 +183,7 @@ def _along(surface: Surface, n_vertices: int, way: Cut) -> Along:
     """Of n vertices, those of the surface first."""
     is_usual = way == Cut.COMPLETING
     triangles = surface.triangles if is_usual else surface.cut(way)
-    vertex, order = triangles.numbered(surface.vertex, n_vertices)
+    vertex, order = triangles.numbered(surface.vertex, n_vertices, as_they_are=True)
     return Along(triangles.opposite, vertex, n_vertices, order)
 
 

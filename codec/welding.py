@@ -49,50 +49,63 @@ def arrange(
     """The vertices of `faces` along the surface of the welded faces, in their output order."""
     if welded is faces:
         return Arrangement(surface.vertex, order.vertices, order.vertices, None)
-    source = faces.reshape(-1)[order.all_corners]
-    vertex, firsts = _kernels.number_by_first_use(
-        source.astype(np.int32, copy=False), len(order.vertices)
-    )
-    n_sites = surface.n_vertices
-    isolated = np.ones(len(order.vertices), bool)
-    isolated[source] = False
-    unused = np.flatnonzero(isolated)
-    splits = _kernels.encode_splits(surface.opposite, surface.vertex, n_sites, vertex)
+    source = faces.reshape(-1)[order.all_corners].astype(np.int32, copy=False)
+    splits, vertex = _kernels.encode_splits(*fans(surface), source)
+    vertices = np.empty(int(vertex.max()) + 1, np.int64)
+    vertices[vertex] = source
+    is_unused = np.ones(len(order.vertices), bool)
+    is_unused[vertices] = False
+    unused = np.flatnonzero(is_unused)
     return Arrangement(
         vertex,
-        np.concatenate([firsts, unused]),
-        np.concatenate([order.vertices[:n_sites], unused]),
+        np.concatenate([vertices, unused]),
+        np.concatenate([order.vertices[: surface.n_vertices], unused]),
         splits,
     )
 
 
-class Split(NamedTuple):
-    """The decoder's side: the vertex of each corner, and the coded site of each vertex.
+def fans(surface: Surface) -> tuple[Int32s, Int32s, Int32s, Int32s, int]:
+    """The half-edge across each corner, its fan and its site; the site of each fan; n_sites."""
+    sites = surface.vertex, surface.vertex_of_piece, surface.n_vertices
+    return surface.opposite, surface.piece_vertex, *sites
 
-    site: (n,), None where each vertex is the site of its number.
+
+class Split(NamedTuple):
+    """The decoder's side: the vertex of each corner, and the coded sites.
+
+    n_used: sites in faces, each with the vertex of its number.  more: (k,) the sites of the
+    vertices that follow.  n_isolated: vertices that come last, sites of their own.
     """
 
     vertex: Int32s
-    site: Int32s | None
-    n_sites: int
+    n_used: int
+    more: Int32s
+    n_isolated: int
+
+    @property
+    def n_sites(self) -> int:
+        return self.n_used + self.n_isolated
+
+    @property
+    def site(self) -> Int32s | None:
+        """(n,) that of each vertex; None where each vertex is the site of its number."""
+        return self.at_sites(np.arange(self.n_sites, dtype=np.int32)) if len(self.more) else None
 
     def at_sites(self, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Values per site, for each vertex."""
-        return values if self.site is None else np.take(values, self.site, axis=0, mode="clip")
+        if not len(self.more):
+            return values
+        used, isolated = values[: self.n_used], values[self.n_used :]
+        return np.concatenate([used, np.take(used, self.more, axis=0, mode="clip"), isolated])
 
 
 def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
     """Which vertex each corner has; raises CorruptError where there are more than n_vertices."""
-    n_sites, n_used = surface.n_vertices, surface.n_vertices
-    vertex: Int32s = surface.vertex
-    site: Int32s | None = None
+    vertex, more = surface.vertex, np.zeros(0, np.int32)
     if splits is not None:
         data = np.frombuffer(splits, np.uint8)
-        vertex, site = _kernels.decode_splits(data, surface.opposite, surface.vertex, n_sites)
-        n_used = len(site)
-    n_isolated = n_vertices - n_used
+        vertex, more = _kernels.decode_splits(data, *fans(surface))
+    n_isolated = n_vertices - surface.n_vertices - len(more)
     if n_isolated < 0:
         raise CorruptError(f"more vertices than the {n_vertices} declared")
-    if site is not None and n_isolated:
-        site = np.append(site, n_sites + np.arange(n_isolated, dtype=np.int32))
-    return Split(vertex, site, n_sites + n_isolated)
+    return Split(vertex, surface.n_vertices, more, n_isolated)

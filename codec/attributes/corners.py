@@ -12,7 +12,7 @@ from ebz.codec import _kernels
 from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding
 from ebz.codec.attributes.bundles import Bundle
-from ebz.codec.attributes.items import Items, Sites
+from ebz.codec.attributes.items import Sites
 from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.connectivity import Int32s
 from ebz.codec.encoded import EncodedArray
@@ -40,36 +40,38 @@ def decode(arrays: Sequence[EncodedArray], sites: Sites) -> Attributes:
 def _encode(
     bundle: Bundle, sites: Sites, precision: AttributePrecision, *, fast: bool
 ) -> EncodedArray:
-    wedge, is_first = _wedges(bundle.values, sites.vertex)
-    seams = b""
-    if int(wedge.max(initial=-1)) != int(sites.vertex.max(initial=-1)):
-        seams = _kernels.encode_splits(sites.opposite, sites.vertex, sites.n_vertices, wedge)
-    bundle = bundle._replace(values=bundle.values[is_first])
-    array = coding.encode_bundle(bundle, _items(wedge, sites), precision, fast=fast)
-    return array._replace(seams=seams)
+    kinds = _kinds(bundle.values, sites.vertex)
+    seams, wedge = _kernels.encode_splits(*_fans(sites), kinds)
+    n_wedges = int(wedge.max(initial=-1)) + 1
+    corner = np.empty(n_wedges, np.int64)
+    corner[wedge] = np.arange(len(wedge))
+    bundle = bundle._replace(values=bundle.values[corner])
+    array = coding.encode_bundle(bundle, sites.by_wedge(wedge, n_wedges), precision, fast=fast)
+    return array._replace(seams=seams if n_wedges > sites.n_used else b"")
 
 
 def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:
-    wedge, _ = _kernels.number_by_first_use(sites.vertex, sites.n_vertices)
+    wedge, n_wedges = sites.vertex, sites.n_used
     if array.seams:
         data = np.frombuffer(array.seams, np.uint8)
         with corrupt_at(array.place):
-            wedge, _ = _kernels.decode_splits(data, sites.opposite, sites.vertex, sites.n_vertices)
-    return coding.decode_array(array, _items(wedge, sites))[wedge]
+            wedge, more = _kernels.decode_splits(data, *_fans(sites))
+        n_wedges += len(more)
+    return coding.decode_array(array, sites.by_wedge(wedge, n_wedges))[wedge]
 
 
-def _items(wedge: Int32s, sites: Sites) -> Items:
-    return sites.by_wedge(wedge, int(wedge.max(initial=-1)) + 1)
+def _fans(sites: Sites) -> tuple[Int32s, Int32s, Int32s, Int32s, int]:
+    """As those of sites (welding.py), of vertices."""
+    fan, vertex_of_fan = _kernels.fans_at_points(sites.opposite, sites.vertex)
+    return sites.opposite, fan, sites.vertex, vertex_of_fan, sites.n_used
 
 
-def _wedges(values: npt.NDArray[Any], vertex: Int32s) -> tuple[Int32s, npt.NDArray[np.bool_]]:
-    """The wedge of each corner, numbered by first use, and which corners are the first of one."""
+def _kinds(values: npt.NDArray[Any], vertex: Int32s) -> Int32s:
+    """A number for each corner, the same for corners of one vertex and value."""
     n, size = len(values), values.itemsize * math.prod(values.shape[1:])
     keys = np.ascontiguousarray(values).reshape(-1).view(np.uint8).reshape(n, size)
     columns = np.concatenate(
         [np.ascontiguousarray(vertex).view(np.uint8).reshape(n, 4), keys], axis=1
     )
     rows = np.ascontiguousarray(columns).view(np.dtype((np.void, columns.shape[1])))[:, 0]
-    kinds = np.unique(rows, return_inverse=True)[1].astype(np.int32)
-    wedge, _ = _kernels.number_by_first_use(kinds, len(kinds))
-    return wedge, np.diff(np.maximum.accumulate(wedge), prepend=-1) > 0
+    return np.unique(rows, return_inverse=True)[1].astype(np.int32)

@@ -12,6 +12,7 @@ from ebz.codec.connectivity import Int32s, Surface
 from ebz.codec.errors import CorruptError
 from ebz.codec.order import SourceOrder
 from ebz.codec.polygons import PolygonCorners, Triangles
+from ebz.codec.welding import Split
 
 Floats = npt.NDArray[np.float64]
 NOTHING = np.zeros(0, np.int32)
@@ -22,17 +23,19 @@ NOWHERE = np.zeros((0, 3))
 class Sites:
     """The decoded surface that all attributes share, in output order.
 
-    vertex: (3t,) that of each corner of the surface's triangles.
-    vertices: (n, 3) float32 or float64, as decoded.  site: (n,) that of each vertex: those of one
-    site have the same coordinates; None where each has its own.
+    vertices: (n, 3) float32 or float64, as decoded.
     source: the order that is kept.
     """
 
     surface: Surface
-    vertex: Int32s
+    split: Split
     vertices: npt.NDArray[Any]
-    site: npt.NDArray[Any] | None
     source: SourceOrder
+
+    @property
+    def vertex(self) -> Int32s:
+        """(3t,) that of each corner of the surface's triangles."""
+        return self.split.vertex
 
     @property
     def opposite(self) -> Int32s:
@@ -52,6 +55,11 @@ class Sites:
     @property
     def n_vertices(self) -> int:
         return len(self.vertices)
+
+    @property
+    def n_used(self) -> int:
+        """Vertices in faces, which come first."""
+        return int(self.vertex.max(initial=-1)) + 1
 
     @property
     def n_faces(self) -> int:
@@ -97,7 +105,8 @@ class Sites:
     ) -> "Items":
         """item: (3t,) of each corner of the surface's triangles.  at: the vertex of each item."""
         n, opposite = len(at), self.triangles.opposite
-        along, order = self.triangles.numbered(item, n)
+        is_split = int(item.max(initial=-1)) >= self.surface.n_vertices
+        along, order = self.triangles.numbered(item, n, as_they_are=not is_split)
         if order is None:
             return Items(n, opposite, along, self, at, corners=item, of_source=of_source)
         number = np.empty(n, np.int32)
@@ -186,7 +195,7 @@ class Items(NamedTuple):
         """(n,) entries of one site are at one place; nothing where none are."""
         if self.sites is None or not len(self.at):
             return NOTHING
-        numbers = self.sites.site
+        numbers = self.sites.split.site
         site = (self.at if numbers is None else numbers[self.at]).astype(np.int32)
         return site if int(site.max()) + 1 < len(site) else NOTHING
 

@@ -3,202 +3,275 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
-#include "errors.hpp"
+#include "fan_spokes.hpp"
 #include "integers.hpp"
+#include "split_truth.hpp"
 
 namespace ebz {
 
 namespace {
 
-// Corners at one point that are joined across edges without a split.
-class Runs {
-public:
-    explicit Runs(size_t n_corners) : parent_(n_corners) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    // The first corner of the run.
-    Index first(Index c) {
-        while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-        return c;
-    }
-
-    void join(Index a, Index b) {
-        a = first(a);
-        b = first(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<Index> parent_;
-};
-
-// One path for both sides; a decoder passes the vertices to be filled in.
+// One path for both sides.
 template <class Coder>
 class SplitCoder {
 public:
-    SplitCoder(std::span<const Index> opposite, std::span<const Index> point, Index n_points,
-               std::span<Index> vertex, Coder& coder)
-        : opposite_(opposite),
-          point_(point),
-          vertex_(vertex),
+    SplitCoder(const FannedPoints& points, SplitTruth truth, Coder& coder)
+        : points_(points),
+          truth_(std::move(truth)),
           coder_(coder),
-          several_(n_points, unknown),
-          n_splits_(n_points),
-          n_vertices_(n_points),
-          latest_(n_points, none),
-          runs_(opposite.size()) {}
+          spokes_(points.opposite, points.fan),
+          vertex_(points.point.begin(), points.point.end()),
+          n_vertices_(static_cast<size_t>(points.n_points)) {}
 
-    // are_told: whether it is told first which points have several vertices; else all may.
-    void run(bool are_told) {
-        are_told = coder_.raw(are_told, 1) != 0;
-        if (are_told) code_several(Coder::encoding ? find_several() : std::vector<uint8_t>(several_.size()));
-        else std::fill(several_.begin(), several_.end(), 1);
-        for (Index first = 0; first < n_corners(); first += 3) {
-            // Most triangles have no corner at a point of several vertices.
-            if (!(has_several(first) | has_several(first + 1) | has_several(first + 2))) continue;
-            for (Index h = first; h < first + 3; ++h) {
-                if (opposite_[h] > h) edge(h, opposite_[h]);
-            }
+    DecodedSplits run() {
+        if (coder_.raw(known([&] { return truth_.is_apart(); }), 1) != 0) {
+            take_apart();
+        } else {
+            fans();
+            resolve();
         }
-        for (Index c = 0; c < n_corners(); ++c) vertex_[c] = several_[point_[c]] ? of_run(c) : of_point(point_[c]);
+        return {std::move(vertex_), std::move(more_)};
     }
-
-    // The point of each vertex.
-    std::vector<Index> points() { return std::move(points_); }
 
 private:
-    static constexpr uint8_t max_splits = 3, unknown = 2;
-    static constexpr Index max_contexts = 3;
+    static constexpr uint8_t max_told = 3;
 
-    Index n_corners() const { return static_cast<Index>(opposite_.size()); }
+    // What is known of an edge at its other end.
+    enum OtherEnd : uint8_t { unknown, unknown_beside_cut, whole, cut };
 
-    std::vector<uint8_t> find_several() const {
-        std::vector<uint8_t> several(several_.size());
-        std::vector<Index> one(several_.size(), none);
-        for (Index c = 0; c < n_corners(); ++c) {
-            Index& vertex = one[point_[c]];
-            several[point_[c]] |= vertex != none && vertex != vertex_[c];
-            vertex = vertex_[c];
+    // A vertex at a point, by the order in which they are told; its number is none where it is to be found.
+    struct Run {
+        Index rank, vertex;
+    };
+
+    template <class Ask>
+    static auto known(Ask ask) {
+        if constexpr (Coder::encoding) return ask();
+        else return decltype(ask()){};
+    }
+
+    void take_apart() {
+        for (Index c = 0; c < static_cast<Index>(vertex_.size()); ++c) vertex_[c] = add(points_.point[c]).vertex;
+    }
+
+    void fans() {
+        const auto n_fans = static_cast<Index>(points_.point_of_fan.size());
+        entry_.assign(points_.point_of_fan.size(), none);
+        n_told_.assign(points_.point_of_fan.size(), 0);
+        is_cut_.assign(vertex_.size(), 0);
+        gap_ = code_gap();
+        for (Index f = 0; f < n_fans; ++f) {
+            if (code_is_cut(f)) cut_fan(f);
+            else if (n_vertices_[points_.point_of_fan[f]] > 0) whole_fan(f);
+            else first_fan(f);
         }
-        return several;
     }
 
-    // Along seams, neighbours have several vertices too.
-    void code_several(const std::vector<uint8_t>& truth) {
-        bool latest = false;
-        for (Index c = 0, n_known = 0; c < n_corners(); ++c) {
-            const Index p = point_[c];
-            // Points are numbered by first corner.
-            if (p < n_known || several_[p] != unknown) continue;
-            n_known = p + 1;
-            const Index beyond = opposite_[next(c)];
-            const bool apex = beyond != none && has_several(previous(beyond));
-            const int context = has_several(next(c)) + 2 * has_several(previous(c)) + 4 * latest + 8 * apex;
-            several_[p] = latest = several_bit_[context].code(coder_, truth[p] != 0);
+    // Of fans that no cut has reached, few are cut: how many are whole is told.
+    bool code_is_cut(Index f) {
+        if (n_told_[f] > 0) {
+            const bool truth = known([&] { return truth_.is_cut(f); });
+            return latest_cut_ = fan_bit_[n_told_[f] - 1][latest_cut_].code(coder_, truth);
+        }
+        if (gap_-- > 0) return false;
+        gap_ = code_gap();
+        return true;
+    }
+
+    uint64_t code_gap() {
+        return gap_length_.code(coder_, known([&] { return truth_.gap(n_gaps_++); }));
+    }
+
+    // A whole one, at a point that has no vertex yet.
+    void first_fan(Index f) {
+        n_vertices_[points_.point_of_fan[f]] = 1;
+        if constexpr (Coder::encoding) truth_.rank_of_fan(f) = 0;
+    }
+
+    // Of the fans asked for, ascending.
+    Index first_corner(Index f) {
+        while (points_.fan[first_corner_] != f) ++first_corner_;
+        return first_corner_;
+    }
+
+    void whole_fan(Index f) {
+        const Index c = first_corner(f);
+        const Run run = code_run(c, none, true);
+        if (run.rank == 0) return;
+        spokes_.turn_from(c);
+        give(run, 0, spokes_.corners().size());
+    }
+
+    void cut_fan(Index f) {
+        spokes_.turn_from(entry_[f] == none ? first_corner(f) : entry_[f]);
+        code_cuts(f);
+        const size_t n = spokes_.corners().size();
+        Run run{none, none};
+        for (size_t i = 0; i < cuts_.size(); ++i) {
+            const size_t end = i + 1 < cuts_.size() ? cuts_[i + 1] : spokes_.is_closed() ? n + cuts_[0] : n;
+            run = code_run(spokes_.corners()[cuts_[i]], run.rank, false);
+            if (run.rank > 0) give(run, cuts_[i], end);
         }
     }
 
-    bool has_several(Index c) const { return several_[point_[c]] == 1; }
-
-    void edge(Index h, Index g) {
-        const bool split = several_[point_[h]] && end(h, next(g), 0);
-        if (several_[point_[g]]) end(g, next(h), 1 + split);
-    }
-
-    // Corners a and b are at one end of an edge, on its two sides.
-    bool end(Index a, Index b, int other_end) {
-        uint8_t& n_splits = n_splits_[point_[a]];
-        const bool split = split_[other_end][n_splits].code(coder_, vertex_[a] != vertex_[b]);
-        if (split) {
-            n_splits = std::min<uint8_t>(n_splits + 1, max_splits);
-        } else {
-            runs_.join(a, b);
+    // The corners that runs begin with.
+    void code_cuts(Index f) {
+        const auto& corners = spokes_.corners();
+        const size_t first = spokes_.is_closed() ? 0 : 1, n_least = spokes_.is_closed() ? 2 : 1;
+        find_other_ends(f, first);
+        cuts_.assign(first, 0);
+        for (size_t i = first; i < corners.size(); ++i) {
+            n_cuts_ahead_ -= ends_[i] == cut;
+            const bool is_last_chance = cuts_.size() - first + corners.size() - i == n_least;
+            if (!is_last_chance && !code_cut(i, first)) continue;
+            cuts_.push_back(i);
+            tell(f, corners[i]);
         }
-        return split;
+        const size_t n_cuts = cuts_.size() - first;
+        is_latest_apart_ = n_cuts > 1 && n_cuts == corners.size() - first;
     }
 
-    Index of_point(Index p) { return latest_[p] == none ? create(p) : latest_[p]; }
-
-    Index of_run(Index c) {
-        const Index first = runs_.first(c);
-        return first == c ? vertex_of_run(c) : vertex_[first];
+    bool code_cut(size_t i, size_t first) {
+        const auto& corners = spokes_.corners();
+        const size_t n = cuts_.size() - first;
+        const size_t so_far = is_latest_apart_ && n == i - first ? 3 : std::min<size_t>(n, 2);
+        const size_t turned = n == 0 || so_far == 3 || !spokes_.is_closed() ? 0 : turned_from_first_cut(i);
+        const OtherEnd end = ends_[i] == unknown && n_cuts_ahead_ > 0 ? unknown_beside_cut : ends_[i];
+        const bool truth = known([&] { return truth_.differ(corners[i], spokes_.beyond(corners[i])); });
+        return cut_bit_[end][so_far][turned].code(coder_, truth);
     }
 
-    Index create(Index p) {
-        before_.push_back(latest_[p]);
-        points_.push_back(p);
-        ++n_vertices_[p];
-        return latest_[p] = n_created() - 1;
+    // Less than half a turn (1), about half (2), or more (3): seams are mostly straight.
+    size_t turned_from_first_cut(size_t i) const {
+        const size_t twice = 2 * (i - cuts_[0]), n = spokes_.corners().size();
+        return twice + 1 < n ? 1 : twice > n + 1 ? 3 : 2;
     }
 
-    // A new vertex of the point, or one that it already has, counted back from the latest.
-    Index vertex_of_run(Index corner) {
-        const Index p = point_[corner], n_known = n_vertices_[p];
-        const bool is_known = vertex_[corner] < n_created();
-        if (n_known > 0 && again_[std::min(n_known, max_contexts) - 1].code(coder_, is_known)) {
-            return earlier(p, vertex_[corner]);
+    void find_other_ends(Index f, size_t first) {
+        const auto& corners = spokes_.corners();
+        ends_.resize(corners.size());
+        n_cuts_ahead_ = 0;
+        for (size_t i = first; i < corners.size(); ++i) {
+            const bool is_known = spokes_.other_fan(corners[i]) < f;
+            ends_[i] = !is_known ? unknown : is_cut_[points_.opposite[corners[i]]] ? cut : whole;
+            n_cuts_ahead_ += ends_[i] == cut;
         }
-        return create(p);
     }
 
-    Index earlier(Index p, Index vertex) {
-        uint64_t back = 0;
-        if constexpr (Coder::encoding) {
-            for (Index v = latest_[p]; v != vertex; v = before_[v]) ++back;
+    void tell(Index f, Index spoke) {
+        is_cut_[spoke] = true;
+        const Index other = spokes_.other_fan(spoke);
+        if (other <= f) return;
+        if (entry_[other] == none) entry_[other] = points_.opposite[spoke];
+        n_told_[other] = std::min<uint8_t>(n_told_[other] + 1, max_told);
+    }
+
+    // rank_before: of the run before it in the fan, whose vertex is another one.
+    Run code_run(Index corner, Index rank_before, bool is_whole) {
+        const Index p = points_.point[corner], n = n_vertices_[p], n_others = n - (rank_before != none);
+        const Index truth = known([&] { return truth_.rank(corner); });
+        const bool is_known = n_others > 0 && code_is_known(n_others, is_whole, truth != none);
+        if (is_known) return {n_others == 1 ? Index{rank_before == 0} : code_rank(n, rank_before, truth), none};
+        if constexpr (Coder::encoding) truth_.rank(corner) = n;
+        return add(p);
+    }
+
+    bool code_is_known(Index n_others, bool is_whole, bool truth) {
+        const auto some = static_cast<size_t>(std::min<Index>(n_others, 3) - 1);
+        const bool is_known = again_[latest_whole_][is_whole][some].code(coder_, truth);
+        if (is_whole) latest_whole_ = is_known;
+        return is_known;
+    }
+
+    // Counted back from the latest, without that before.
+    Index code_rank(Index n, Index before, Index truth) {
+        const bool is_below = known([&] { return before != none && truth < before; });
+        const uint64_t steps = back_.code(coder_, static_cast<uint64_t>(n - 1 - truth - is_below));
+        const auto most = static_cast<uint64_t>(n - 1 - (before != none));
+        const Index rank = n - 1 - static_cast<Index>(std::min(steps, most));
+        return rank - (before != none && rank <= before);
+    }
+
+    Run add(Index p) {
+        const Index rank = n_vertices_[p]++;
+        if (rank == 0) return {0, p};
+        more_.push_back(p);
+        return {rank, points_.n_points + static_cast<Index>(more_.size()) - 1};
+    }
+
+    // To the corners of the fan from begin to end, which may be beyond the last.
+    void give(const Run& run, size_t begin, size_t end) {
+        const auto& corners = spokes_.corners();
+        for (size_t i = begin; i < end; ++i) {
+            const Index c = corners[i < corners.size() ? i : i - corners.size()];
+            vertex_[c] = run.vertex;
+            if (run.vertex == none) unresolved_.emplace_back(c, run.rank);
         }
-        back = std::min<uint64_t>(back_.code(coder_, back), static_cast<uint64_t>(n_vertices_[p]) - 1);
-        spend(back);
-        Index v = latest_[p];
-        while (back-- > 0) v = before_[v];
-        return v;
     }
 
-    // Vertices in many runs at a point of many vertices would cost quadratic time.
-    void spend(uint64_t n_steps) {
-        n_steps_ += n_steps;
-        if (n_steps_ > 64 * opposite_.size()) throw Corrupt("the splits take too many steps");
+    // Finds vertices by rank, in linear time also where a point has many.
+    void resolve() {
+        if (unresolved_.empty()) return;
+        std::vector<Index> start(static_cast<size_t>(points_.n_points) + 1), sorted(more_.size());
+        for (const Index p : more_) ++start[p + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<Index> at(start.begin(), start.end());
+        for (size_t i = 0; i < more_.size(); ++i) sorted[at[more_[i]]++] = points_.n_points + static_cast<Index>(i);
+        for (const auto& [c, rank] : unresolved_) vertex_[c] = sorted[start[points_.point[c]] + rank - 1];
     }
 
-    Index n_created() const { return static_cast<Index>(before_.size()); }
-
-    std::span<const Index> opposite_, point_;
-    std::span<Index> vertex_;
+    const FannedPoints& points_;
+    SplitTruth truth_;
     Coder& coder_;
-    std::vector<uint8_t> several_;    // whether a point has several vertices
-    std::vector<uint8_t> n_splits_;   // seen at each point, up to max_splits
-    std::vector<Index> n_vertices_;   // of each point
-    std::vector<Index> latest_;       // vertex of each point
-    std::vector<Index> points_;       // of each vertex
-    std::vector<Index> before_;       // the point's vertex before each vertex
-    uint64_t n_steps_ = 0;
-    Runs runs_;
-    std::array<AdaptiveBit, 16> several_bit_;
-    std::array<std::array<AdaptiveBit, max_splits + 1>, 3> split_;
-    std::array<AdaptiveBit, max_contexts> again_;
-    IntegerModel back_;
+    FanSpokes spokes_;
+    std::vector<Index> vertex_;      // of each corner
+    std::vector<Index> n_vertices_;  // so far, of each point
+    std::vector<Index> more_;        // the point of each vertex that is not the first there
+    std::vector<Index> entry_;       // the first spoke of each fan that was told to be cut at its other end
+    std::vector<uint8_t> n_told_;    // such spokes of each fan, up to max_told
+    std::vector<uint8_t> is_cut_;    // spokes
+    std::vector<std::pair<Index, Index>> unresolved_;  // a corner, and the rank of its vertex
+    // Of the fan under way.
+    std::vector<OtherEnd> ends_;  // of each spoke
+    std::vector<size_t> cuts_;
+    size_t n_cuts_ahead_ = 0;
+
+    Index first_corner_ = 0;
+    uint64_t gap_ = 0;
+    size_t n_gaps_ = 0;
+    bool latest_cut_ = false, latest_whole_ = false, is_latest_apart_ = false;
+    IntegerModel gap_length_, back_;
+    std::array<std::array<AdaptiveBit, 2>, max_told> fan_bit_;
+    std::array<std::array<std::array<AdaptiveBit, 4>, 4>, 4> cut_bit_;
+    std::array<std::array<std::array<AdaptiveBit, 3>, 2>, 2> again_;
 };
 
 }  // namespace
 
-std::vector<uint8_t> encode_splits(std::span<const Index> opposite, std::span<const Index> point,
-                                   Index n_points, std::span<const Index> vertex) {
-    const auto encoded = [&](bool are_told) {
-        std::vector<Index> copy(vertex.begin(), vertex.end());
-        RangeEncoder coder;
-        SplitCoder<RangeEncoder>(opposite, point, n_points, copy, coder).run(are_told);
-        return coder.finish();
-    };
-    std::vector<uint8_t> told = encoded(true), untold = encoded(false);
-    return untold.size() < told.size() ? untold : told;
+FansAtPoints fans_at_points(std::span<const Index> opposite, std::span<const Index> point) {
+    FansAtPoints fans{std::vector<Index>(point.size(), none), {}};
+    FanSpokes spokes(opposite, point);
+    for (Index c = 0; c < static_cast<Index>(point.size()); ++c) {
+        if (fans.fan[c] != none) continue;
+        spokes.turn_from(c);
+        for (const Index other : spokes.corners()) fans.fan[other] = static_cast<Index>(fans.point_of_fan.size());
+        fans.point_of_fan.push_back(point[c]);
+    }
+    return fans;
 }
 
-DecodedSplits decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
-                            std::span<const Index> point, Index n_points) {
-    std::vector<Index> vertex(opposite.size());
+EncodedSplits encode_splits(const FannedPoints& points, std::span<const Index> label) {
+    RangeEncoder coder;
+    SplitTruth truth(points.opposite, points.fan, static_cast<Index>(points.point_of_fan.size()), label);
+    std::vector<Index> vertex = SplitCoder<RangeEncoder>(points, std::move(truth), coder).run().vertex;
+    return {coder.finish(), std::move(vertex)};
+}
+
+DecodedSplits decode_splits(std::span<const uint8_t> bytes, const FannedPoints& points) {
     RangeDecoder coder(bytes);
-    SplitCoder<RangeDecoder> splits(opposite, point, n_points, vertex, coder);
-    splits.run(false);
-    return {std::move(vertex), splits.points()};
+    return SplitCoder<RangeDecoder>(points, {}, coder).run();
 }
 
 }  // namespace ebz

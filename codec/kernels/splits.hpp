@@ -1,8 +1,9 @@
 // Points that several vertices share: which corners at a point belong to which vertex.
 //
 // Vertices with equal positions are welded into points, so that seams and triangle soups are coded as the
-// surfaces they are.  Across each edge, at each of its ends, a bit tells whether the corners on its two
-// sides belong to different vertices; along a seam both ends differ, which the contexts learn.
+// surfaces they are.  Around each point, edges across which vertices differ cut its fans into runs.  Seams go
+// on from point to point: what is told at one end of an edge foretells the other, and most points, which no
+// seam reaches, are passed over together.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +14,33 @@
 
 namespace ebz {
 
-// opposite and point: per corner.  vertex: the vertex of each corner, numbered by first use.
-std::vector<uint8_t> encode_splits(std::span<const Index> opposite, std::span<const Index> point,
-                                   Index n_points, std::span<const Index> vertex);
-
-struct DecodedSplits {
-    std::vector<Index> vertex;  // of each corner, numbered by first use
-    std::vector<Index> point;   // of each vertex
+// A fan: the corners at one point that are joined across edges; numbered by first corner.
+struct FannedPoints {
+    std::span<const Index> opposite, fan, point;  // of each corner
+    std::span<const Index> point_of_fan;
+    Index n_points;
 };
 
-DecodedSplits decode_splits(std::span<const uint8_t> bytes, std::span<const Index> opposite,
-                            std::span<const Index> point, Index n_points);
+struct FansAtPoints {
+    std::vector<Index> fan, point_of_fan;
+};
+
+FansAtPoints fans_at_points(std::span<const Index> opposite, std::span<const Index> point);
+
+// One vertex of each point has its number; more are numbered as they are told, from n_points on.
+struct EncodedSplits {
+    std::vector<uint8_t> bytes;
+    std::vector<Index> vertex;  // of each corner
+};
+
+// label: of each corner, equal at the corners of one vertex, which is at one point.
+EncodedSplits encode_splits(const FannedPoints& points, std::span<const Index> label);
+
+struct DecodedSplits {
+    std::vector<Index> vertex;  // of each corner
+    std::vector<Index> point;   // of each vertex beyond the first n_points
+};
+
+DecodedSplits decode_splits(std::span<const uint8_t> bytes, const FannedPoints& points);
 
 }  // namespace ebz

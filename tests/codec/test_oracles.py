@@ -6,17 +6,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ebz
-from ebz.codec import connectivity, pipeline
+from ebz.codec import _kernels, connectivity, pipeline, welding
 from ebz.codec.integers import decode_columns, encode_columns, zigzag
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
 from ebz.codec.sample import random_triangulation
 from ebz.formats import ebz_file
 from tests import surgery
-from tests.meshes import face_lists, meshes, surfaces
+from tests.meshes import face_lists, meshes, rngs, surfaces
 from tests.oracles import integers, reverse, specials
 from tests.oracles.gluing import Gluing
 from tests.oracles.range_coder import Decoder, Encoder
+from tests.oracles.splits import Splits
+from tests.surgery import n_used
 
 tables = st.sampled_from(table_names())
 models = st.none() | tables
@@ -138,3 +140,42 @@ def test_words_are_encoded_alike(name, faces):
 def test_zigzag_is_the_textbook_one(values):
     expected = [2 * value if value >= 0 else -2 * value - 1 for value in values]
     assert zigzag(np.array(values, np.int64)).tolist() == expected
+
+
+@settings(max_examples=200, deadline=None)
+@given(face_lists() | surfaces(), rngs, st.integers(1, 5), st.floats(0, 1))
+def test_splits_are_decoded_alike(faces, rng, n_most, share):
+    """Any corners may be those of a vertex, also where a fan is at a part of its site only."""
+    surface, _ = connectivity.traverse(faces, n_used(faces))
+    check_splits(welding.fans(surface), labels(surface.vertex, rng, n_most, share))
+    fan, site = _kernels.fans_at_points(surface.opposite, surface.vertex)
+    assert np.array_equal(fan, surface.piece_vertex)
+    assert np.array_equal(site, surface.vertex_of_piece)
+    parts = labels(surface.vertex, rng, 2, share)
+    points, _ = _kernels.number_by_first_use(parts, len(parts))
+    fan, point = _kernels.fans_at_points(surface.opposite, points)
+    of = surface.opposite, fan, points, point, int(points.max(initial=-1)) + 1
+    check_splits(of, labels(points, rng, n_most, share))
+
+
+def labels(point: np.ndarray, rng: np.random.Generator, n_most: int, share: float) -> np.ndarray:
+    """One of up to n_most for each corner, at that share of the points; at some, one each."""
+    n = int(point.max(initial=-1)) + 1
+    several = rng.integers(1, n_most + 1, n)
+    several[rng.random(n) > share] = 1
+    label = n_most * point + rng.integers(0, several[point])
+    apart = (rng.random(n) < share / 7)[point]
+    label = np.where(apart, n_most * n + np.arange(len(point)), label)
+    return np.unique(label, return_inverse=True)[1].astype(np.int32)
+
+
+def check_splits(of: tuple, label: np.ndarray) -> None:
+    opposite, _, point, _, n_points = of
+    data, vertex = _kernels.encode_splits(*of, label)
+    decoded, more = _kernels.decode_splits(np.frombuffer(data, np.uint8), *of)
+    twin = Splits(data, opposite.tolist(), point.tolist())
+    assert decoded.tolist() == vertex.tolist() == twin.decode()
+    assert more.tolist() == twin.more
+    pairs = np.unique(np.stack([vertex, label]), axis=1)
+    assert np.array_equal(pairs[0], np.arange(n_points + len(more)))
+    assert len(np.unique(pairs[1])) == pairs.shape[1]

@@ -29,17 +29,30 @@ Array<int32_t> glue(const Input<int32_t>& vertex, const Input<int32_t>& site) {
     return to_numpy(without_gil([&] { return ebz::glue(view(vertex), view(site)); }));
 }
 
-nb::bytes encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& point, int32_t n_points,
-                        const Input<int32_t>& vertex) {
-    return to_bytes(
-        without_gil([&] { return ebz::encode_splits(view(opposite), view(point), n_points, view(vertex)); }));
+ebz::FannedPoints fanned(const Input<int32_t>& opposite, const Input<int32_t>& fan, const Input<int32_t>& point,
+                         const Input<int32_t>& point_of_fan, int32_t n_points) {
+    return {view(opposite), view(fan), view(point), view(point_of_fan), n_points};
+}
+
+std::tuple<nb::bytes, Array<int32_t>> encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& fan,
+                                                    const Input<int32_t>& point, const Input<int32_t>& point_of_fan,
+                                                    int32_t n_points, const Input<int32_t>& label) {
+    ebz::EncodedSplits encoded = without_gil(
+        [&] { return ebz::encode_splits(fanned(opposite, fan, point, point_of_fan, n_points), view(label)); });
+    return {to_bytes(encoded.bytes), to_numpy(std::move(encoded.vertex))};
 }
 
 std::tuple<Array<int32_t>, Array<int32_t>> decode_splits(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
-                                                         const Input<int32_t>& point, int32_t n_points) {
-    ebz::DecodedSplits decoded =
-        without_gil([&] { return ebz::decode_splits(view(bytes), view(opposite), view(point), n_points); });
+                                                         const Input<int32_t>& fan, const Input<int32_t>& point,
+                                                         const Input<int32_t>& point_of_fan, int32_t n_points) {
+    ebz::DecodedSplits decoded = without_gil(
+        [&] { return ebz::decode_splits(view(bytes), fanned(opposite, fan, point, point_of_fan, n_points)); });
     return {to_numpy(std::move(decoded.vertex)), to_numpy(std::move(decoded.point))};
+}
+
+std::tuple<Array<int32_t>, Array<int32_t>> fans_at_points(const Input<int32_t>& opposite, const Input<int32_t>& point) {
+    ebz::FansAtPoints fans = without_gil([&] { return ebz::fans_at_points(view(opposite), view(point)); });
+    return {to_numpy(std::move(fans.fan)), to_numpy(std::move(fans.point_of_fan))};
 }
 
 template <class Bits>
@@ -71,10 +84,12 @@ void bind_sites(nb::module_& m) {
     m.def("decode_gluing", &decode_gluing, "data"_a, "opposite"_a, "vertex"_a, "n_vertices"_a, "n_copies"_a,
           "The site of each vertex of the pieces.");
     m.def("glue", &glue, "vertex"_a, "site"_a, "The site of each corner.");
-    m.def("encode_splits", &encode_splits, "opposite"_a, "point"_a, "n_points"_a, "vertex"_a,
-          "Which corners at each point belong to which vertex.");
-    m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "point"_a, "n_points"_a,
-          "The vertex of each corner, numbered by first use, and the point of each vertex.");
+    m.def("encode_splits", &encode_splits, "opposite"_a, "fan"_a, "point"_a, "point_of_fan"_a, "n_points"_a,
+          "label"_a, "Which corners at each point belong to which vertex, and the vertex of each corner.");
+    m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "fan"_a, "point"_a, "point_of_fan"_a, "n_points"_a,
+          "The vertex of each corner, and the point of each vertex beyond the first n_points.");
+    m.def("fans_at_points", &fans_at_points, "opposite"_a, "point"_a,
+          "The fan of each corner, and the point of each fan.");
     m.def("weld", &weld<int32_t>, "faces"_a, "offsets"_a, "positions"_a);
     m.def("weld", &weld<int64_t>, "faces"_a, "offsets"_a, "positions"_a,
           "For each vertex the first that stands for it, empty if nothing is welded; no offsets: triangles.");
