@@ -4,6 +4,7 @@
 #include "direct_word.hpp"
 #include "errors.hpp"
 #include "mixed_model.hpp"
+#include "mixed_rows.hpp"
 #include "special_coder.hpp"
 
 namespace ebz {
@@ -62,24 +63,20 @@ private:
     Model model_;
 };
 
-template <class Coder>
-Reverse code_word(Effort effort, Coder& coder, const WordHeader& header, Index n_specials, Symbols& word) {
-    if (effort == Effort::fast) return WordCoder<MixedModel<FastContexts>, Coder>(coder, header, n_specials, word).run();
-    return WordCoder<MixedModel<StrongContexts>, Coder>(coder, header, n_specials, word).run();
-}
-
 // Calls work with the coder that the effort takes and what has been coded.
 template <class Ans, class Range, class Work>
 auto with_coder(Effort effort, const WordHeader& header, Index n_specials, Symbols& word, Work work, auto... source) {
-    if (effort == Effort::direct) {
-        Ans ans(source...);
-        using Coder = SingleLane<Ans>;
-        Reverse reverse = DirectWord<Coder>(Coder(ans), header, n_specials, word.symbols, word.specials).run();
-        return work(ans, reverse);
+    if (effort == Effort::strong) {
+        Range coder(source...);
+        Reverse reverse = WordCoder<MixedModel<StrongContexts>, Range>(coder, header, n_specials, word).run();
+        return work(coder, reverse);
     }
-    Range coder(source...);
-    Reverse reverse = code_word(effort, coder, header, n_specials, word);
-    return work(coder, reverse);
+    Ans ans(source...);
+    using Coder = SingleLane<Ans>;
+    Reverse reverse = effort == Effort::direct
+                          ? DirectWord<Coder, DirectRows>(Coder(ans), header, n_specials, word.symbols, word.specials).run()
+                          : DirectWord<Coder, MixedRows>(Coder(ans), header, n_specials, word.symbols, word.specials).run();
+    return work(ans, reverse);
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ class Encoder {
 public:
     static constexpr bool encoding = true;
 
-    template <int n>
-    uint32_t symbol(size_t lane, AdaptiveSymbol<n>& model, uint32_t symbol) {
+    template <class Model>
+    uint32_t symbol(size_t lane, Model& model, uint32_t symbol) {
         const Share share = model.share(symbol);
         steps_.push_back({share.start, share.frequency, model.total_bits, static_cast<uint16_t>(lane)});
         model.learn(symbol);
@@ -115,19 +115,19 @@ public:
         last_ = bytes_.size() - 4;
     }
 
-    template <int n>
-    uint32_t symbol(size_t lane, AdaptiveSymbol<n>& model, uint32_t) {
+    template <class Model>
+    uint32_t symbol(size_t lane, Model& model, uint32_t) {
         const uint32_t symbol = step(states_[lane], model);
         model.learn(symbol);
         return symbol;
     }
 
     // A symbol in two steps: where in the row it is, and which one that turned out to be.
-    template <int n>
-    uint32_t slot(size_t lane, const AdaptiveSymbol<n>& model) const { return slot_of(states_[lane], model); }
+    template <class Model>
+    uint32_t slot(size_t lane, const Model& model) const { return slot_of(states_[lane], model); }
 
-    template <int n>
-    void take(size_t lane, AdaptiveSymbol<n>& model, uint32_t symbol) {
+    template <class Model>
+    void take(size_t lane, Model& model, uint32_t symbol) {
         advance(states_[lane], model, symbol);
         model.learn(symbol);
     }

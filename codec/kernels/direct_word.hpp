@@ -1,7 +1,6 @@
-// The reverse word, symbol by symbol, for speed: one adaptive distribution per context, no mixing.
+// The reverse word, symbol by symbol, for speed: each symbol in one step.
 //
-// The context is the degree of the gate's left end and the latest two symbols.  Lengths and conflicts of
-// loops are not tracked: a C that they forbid is learnt to be rare.
+// Lengths and conflicts of loops are not tracked: a C that they forbid is learnt to be rare.
 #pragma once
 
 #include <algorithm>
@@ -20,26 +19,38 @@
 
 namespace ebz {
 
-// The rows of the model before the first symbol.
+// A distribution per context: the degree of the gate's left end and the latest two symbols.
 class DirectRows {
 public:
     using Row = AdaptiveSymbol<8>;
+    using History = uint32_t;  // the context of the next symbol
+    static constexpr bool has_excesses = false;
+
+    explicit DirectRows(Index) : DirectRows(initial()) {}
 
     // latest: symbols, of which the latest two count.
     static uint32_t context(uint32_t degree, uint32_t latest) { return degree << 6 | (latest & 63); }
 
-    Row& at(uint32_t context) { return rows_[context]; }
+    const Row& at(uint32_t context) const { return rows_[context]; }
 
-    static DirectRows initial() {
+    Row& next(const Reverse&, History context) { return rows_[context]; }
+
+    // degree: of the gate's left end after the symbol.
+    static History after(History context, Symbol symbol, uint8_t degree) { return DirectRows::context(degree, context << 3 | (symbol + 1u)); }
+
+    // Before the first symbol.
+    static const DirectRows& initial() {
         static const DirectRows rows = from_prior();
         return rows;
     }
 
 private:
+    DirectRows() = default;
+
     static DirectRows from_prior() {
         DirectRows rows;
         for (uint32_t degree = 0; degree <= max_degree; ++degree)
-            for (uint32_t latest = 0; latest < 64; ++latest) rows.at(context(degree, latest)) = Row(shares(degree, latest));
+            for (uint32_t latest = 0; latest < 64; ++latest) rows.rows_[context(degree, latest)] = Row(shares(degree, latest));
         return rows;
     }
 
@@ -70,8 +81,8 @@ public:
 
     // Calls work with the symbol as a constant.  A decoder finds it by branches: those that are foreseen take
     // the state off the path that all else waits for.
-    template <class Work>
-    void symbol(AdaptiveSymbol<8>& row, Symbol symbol, Work work) {
+    template <class Row, class Work>
+    void symbol(Row& row, Symbol symbol, Work work) {
         switch (find(row, symbol)) {
             case C: return take<C>(row, work);
             case L: return take<L>(row, work);
@@ -86,7 +97,8 @@ public:
     uint32_t raw(uint32_t value, int n_bits) { return ans_.raw(0, value, n_bits); }
 
 private:
-    Symbol find(const AdaptiveSymbol<8>& row, Symbol known) const {
+    template <class Row>
+    Symbol find(const Row& row, Symbol known) const {
         if constexpr (Ans::encoding) {
             return known;
         } else {
@@ -100,8 +112,8 @@ private:
         }
     }
 
-    template <Symbol symbol, class Work>
-    void take(AdaptiveSymbol<8>& row, Work work) {
+    template <Symbol symbol, class Row, class Work>
+    void take(Row& row, Work work) {
         if constexpr (Ans::encoding) ans_.symbol(0, row, symbol);
         else ans_.take(0, row, symbol);
         work(std::integral_constant<Symbol, symbol>{});
@@ -110,7 +122,7 @@ private:
     Ans& ans_;
 };
 
-template <class Coder>
+template <class Coder, class Model>
 class DirectWord {
 public:
     // word: all of it when encoding; specials: by falling position when decoding.
@@ -120,18 +132,19 @@ public:
           header_(header),
           symbols_(symbols.data()),
           reverse_(header.n_symbols, header.n_closed, header.n_single),
-          specials_(n_specials, header.n_symbols, specials) {}
+          specials_(n_specials, header.n_symbols, specials),
+          model_(header.n_symbols) {}
 
     // Runs the reverse construction and codes what that does not determine.
     Reverse run() {
         Index position = header_.n_symbols - 1;
         const Index n_coded = header_.n_symbols - std::max<Index>(header_.n_single, 1);
-        uint32_t context = 0;
-        for (; position >= 0 && position >= n_coded; --position) context = apply(context, position, E, none);
+        History history{};
+        for (; position >= 0 && position >= n_coded; --position) history = apply(history, position, E, none);
         for (; position >= 0; --position) {
-            coder_.symbol(rows_.at(context), static_cast<Symbol>(symbols_[position]), [&](auto symbol) {
+            coder_.symbol(model_.next(reverse_, history), static_cast<Symbol>(symbols_[position]), [&](auto symbol) {
                 const bool may_be_special = symbol == S && specials_.any_left();
-                context = apply(context, position, symbol, may_be_special ? special(position) : none);
+                history = apply(history, position, symbol, may_be_special ? special(position) : none);
             });
         }
         specials_.finish();
@@ -139,12 +152,14 @@ public:
     }
 
 private:
-    // The context of the next symbol.
-    [[gnu::always_inline]] uint32_t apply(uint32_t context, Index position, Symbol symbol, int64_t meets) {
+    using History = typename Model::History;
+
+    // What the model knows before the next symbol.
+    [[gnu::always_inline]] History apply(const History& history, Index position, Symbol symbol, int64_t meets) {
         if (Coder::encoding && symbols_[position] != symbol) throw Corrupt("no word of Edgebreaker's");
         symbols_[position] = symbol;
-        const uint32_t degree = reverse_.apply<false>(symbol, meets);
-        return DirectRows::context(degree, context << 3 | (symbol + 1u));
+        const uint8_t degree = reverse_.template apply<Model::has_excesses>(symbol, meets);
+        return Model::after(history, symbol, degree);
     }
 
     int64_t special(Index position) {
@@ -156,7 +171,7 @@ private:
     uint8_t* const symbols_;
     Reverse reverse_;
     SpecialsOfWord specials_;
-    DirectRows rows_ = DirectRows::initial();
+    Model model_;
 };
 
 }  // namespace ebz

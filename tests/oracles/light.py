@@ -129,7 +129,7 @@ class Symbols:
     def decode(self, point: Point, axis: Axis) -> int:
         rows = [self.rows.setdefault(key, Row(from_mix=True)) for key in keys(point, axis)]
         weights = self.weights.setdefault((axis.turn, point.few), [F(0.25)] * 4)
-        shares = [int(w * F(65535)) for w in weights]
+        shares = [int(w * F(65530)) for w in weights]
         mix = [
             sum(row.starts[k] * w >> 16 for row, w in zip(rows, shares, strict=True))
             for k in range(16)
@@ -175,11 +175,9 @@ def keys(point: Point, axis: Axis) -> list[tuple[int, ...]]:
 
 def learnt(weights: Sequence[np.float32], frequencies: Sequence[np.float32]) -> list[np.float32]:
     shares = [w * f for w, f in zip(weights, frequencies, strict=True)]
-    gain = F(0.02) / total(shares)
-    moved = [
-        max(w * (F(1) - F(0.02)) + s * gain, F(0.005)) for w, s in zip(weights, shares, strict=True)
-    ]
-    return [w * (F(0.99999) / total(moved)) for w in moved]
+    gain, least = F(0.02) / total(shares), F(0.0001)
+    kept = F(1) - (F(0.02) + F(4) * least)
+    return [(w * kept + s * gain) + least for w, s in zip(weights, shares, strict=True)]
 
 
 def total(x: Sequence[np.float32]) -> np.float32:

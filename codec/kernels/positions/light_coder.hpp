@@ -46,7 +46,6 @@ public:
 private:
     using Signed = std::make_signed_t<Unsigned>;
     using Position = typename Integers<Unsigned>::Lanes;
-    using Model = LightModel<4>;
     using Predictor = LightPredictor<Unsigned>;
     static constexpr size_t ahead = 4;  // vertices that are prefetched
 
@@ -105,7 +104,7 @@ private:
         return e;
     }
 
-    typename Model::Contexts contexts(size_t turn, size_t d) const {
+    LightModel::Contexts contexts(size_t turn, size_t d) const {
         constexpr size_t places = Predictor::n_places, levels = Predictor::n_levels, spreads = Predictor::n_spreads;
         const auto of = [d](const auto& all) { return static_cast<size_t>(all[d]); };
         return {(d * places + of(x_.near)) * places + of(x_.fraction), (turn * spreads + of(x_.spread)) * 5 + std::min<size_t>(s_.n_tips, 4),
@@ -129,7 +128,7 @@ private:
     Predictor predictor_;
     LightExpectation<Unsigned> x_;
     std::unique_ptr<LightRecalls<Unsigned>> recalls_;  // none where coordinates slide
-    Model model_;
+    LightModel model_;
     Position latest_{};
     std::array<LightSteps, 2> steps_;  // to components, within their first faces
 };

@@ -16,10 +16,9 @@
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-template <size_t n_contexts>
 class LightModel {
 public:
-    static constexpr size_t n_values = 1024, n_sets = 15;
+    static constexpr size_t n_contexts = SymbolMixer::n_rows, n_values = 1024, n_sets = 15;
     using Contexts = std::array<size_t, n_contexts>;  // < n_values
 
     template <class Coder>
@@ -66,7 +65,7 @@ private:
     }
 
     std::array<std::array<SymbolRow, n_values>, n_contexts> rows_;
-    std::array<SymbolMixer<n_contexts>, n_sets> mixers_;
+    std::array<SymbolMixer, n_sets> mixers_;
     std::array<AdaptiveSymbol<16>, n_shifts> far_;
 };
 

@@ -1,52 +1,43 @@
-// A symbol under the weighted mean of several adaptive rows; the weights go to those that told it best.
-//
-// Each step is one of expectation maximisation for a mixture: a weight moves towards the share that its
-// row had in the probability of the symbol.
+// A symbol under the weighted mean of several adaptive rows.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "lanes.hpp"
+#include "mixing_weights.hpp"
 #include "symbol_row.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-template <size_t n_rows>
 class SymbolMixer {
-    static_assert(n_rows <= 4);
+    using Weights = MixingWeights<MixingRates{0.02f, 0.0001f}>;
 
 public:
-    SymbolMixer() {
-        for (size_t i = 0; i < n_rows; ++i) weights_[i] = 1.0f / n_rows;
-    }
+    static constexpr size_t n_rows = Weights::n;
 
     template <class Coder>
     uint32_t code(Coder& coder, size_t lane, const std::array<SymbolRow*, n_rows>& rows, uint32_t symbol) {
-        std::array<uint16_t, n_rows> weights;
-        for (size_t i = 0; i < n_rows; ++i) weights[i] = static_cast<uint16_t>(static_cast<int32_t>(weights_[i] * 65535.0f));
-        const SymbolMix mix = mixed(rows, weights);
+        const SymbolMix mix = mixed(rows, weights_.shares());
         symbol = coder.fixed(lane, mix, symbol);
-        learn_weights(rows, symbol);
+        weights_.learn(frequencies(rows, symbol));
         for (SymbolRow* row : rows) learn(*row, mix, symbol);
         return symbol;
     }
 
 private:
-    static constexpr float rate = 0.02f, least_weight = 0.005f;
-
-    void learn_weights(const std::array<SymbolRow*, n_rows>& rows, uint32_t symbol) {
-        IntLanes frequencies{};
-        for (size_t i = 0; i < n_rows; ++i) frequencies[i] = static_cast<int32_t>(rows[i]->frequency(symbol));
-        const Lanes shares = weights_ * __builtin_convertvector(frequencies, Lanes);
-        Lanes moved = weights_ * (1.0f - rate) + shares * (rate / sum(shares));
-        for (size_t i = 0; i < 4; ++i) moved[i] = i < n_rows && moved[i] < least_weight ? least_weight : moved[i];
-        weights_ = moved * (0.99999f / sum(moved));  // so that they add up to at most 1 once rounded
+    static IntLanes frequencies(const std::array<SymbolRow*, n_rows>& rows, uint32_t symbol) {
+        IntLanes of_rows;
+        const bool is_inner = symbol - 1 < SymbolRow::n_symbols - 2;
+        if (is_inner) [[likely]]
+            for (size_t i = 0; i < n_rows; ++i) of_rows[i] = rows[i]->inner_frequency(symbol);
+        else
+            for (size_t i = 0; i < n_rows; ++i) of_rows[i] = static_cast<int32_t>(rows[i]->frequency(symbol));
+        return of_rows;
     }
 
-    Lanes weights_{};
+    Weights weights_;
 };
 
 }  // namespace EBZ_INSTRUCTIONS

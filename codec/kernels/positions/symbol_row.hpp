@@ -18,16 +18,22 @@
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-// starts[i] of 2^15 is where symbol i begins; starts[0], always 0, holds the number of symbols seen instead.
+// starts[i] of 2^15 is where symbol i begins; starts[0], always 0, holds a counter of the symbols seen instead.
 struct alignas(32) SymbolRow {
     static constexpr int total_bits = 15, n_symbols = 16, total = 1 << total_bits;
     static constexpr int least_frequency = 8;
+    // Counters end where signed ones of 16 bits saturate.
+    static constexpr uint16_t last_count = INT16_MAX, first_count = last_count - 255;
 
     std::array<uint16_t, n_symbols> starts;
 
     constexpr SymbolRow() : starts{} {
+        starts[0] = first_count;
         for (int i = 1; i < n_symbols; ++i) starts[static_cast<size_t>(i)] = static_cast<uint16_t>(i * (total / n_symbols));
     }
+
+    // Of the symbols but the first and the last.
+    int32_t inner_frequency(uint32_t symbol) const { return starts[symbol + 1] - starts[symbol]; }
 
     uint32_t frequency(uint32_t symbol) const {
         const uint32_t begin = symbol == 0 ? 0 : starts[symbol], end = symbol == n_symbols - 1 ? total : starts[symbol + 1];
@@ -69,11 +75,10 @@ struct alignas(32) SymbolMix {
 namespace symbol_rows {
 
 // After n symbols a row moves by 2^-rates[n] of the distance to the latest.
-inline constexpr int max_seen = 255;
 inline constexpr auto rates = [] {
-    std::array<uint8_t, max_seen + 1> table{};
-    for (int i = 0; i <= max_seen; ++i)
-        table[static_cast<size_t>(i)] = static_cast<uint8_t>(i < 2 ? 2 : i < 6 ? 3 : i < 20 ? 4 : i < 63 ? 5 : i < 255 ? 6 : 7);
+    std::array<uint8_t, SymbolRow::last_count - SymbolRow::first_count + 1> table{};
+    for (size_t i = 0; i < table.size(); ++i)
+        table[i] = static_cast<uint8_t>(i < 2 ? 2 : i < 6 ? 3 : i < 20 ? 4 : i < 63 ? 5 : i < 255 ? 6 : 7);
     return table;
 }();
 // A row that has seen nothing starts from the mix, 1 / 32 of the way to equal frequencies.
@@ -88,7 +93,13 @@ inline constexpr auto targets = [] {
                                                (i > s ? SymbolRow::total - SymbolRow::least_frequency * SymbolRow::n_symbols : 0));
     return table;
 }();
-inline constexpr SymbolRow flat;
+inline constexpr Target flat = [] {
+    Target all{};
+    for (size_t i = 1; i < all.size(); ++i) all[i] = static_cast<int16_t>(i * (SymbolRow::total / SymbolRow::n_symbols));
+    return all;
+}();
+// What is no counter, one in place of it, and the first.
+inline constexpr Target others = {0, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1}, one = {1}, unseen = {SymbolRow::first_count};
 
 }  // namespace symbol_rows
 
@@ -99,7 +110,15 @@ template <size_t n_rows>
 SymbolMix mixed(const std::array<SymbolRow*, n_rows>& rows, const std::array<uint16_t, n_rows>& weights) {
     static_assert(n_rows < SymbolRow::least_frequency);
     SymbolMix mix;
-#ifdef __SSE2__
+#if defined(EBZ_AVX2)
+    const auto* inner = reinterpret_cast<const __m256i*>(symbol_rows::others.data());
+    __m256i all = _mm256_setzero_si256();
+    for (size_t i = 0; i < n_rows; ++i) {
+        const auto* row = reinterpret_cast<const __m256i*>(rows[i]->starts.data());
+        all = _mm256_add_epi16(all, _mm256_mulhi_epu16(_mm256_load_si256(row), _mm256_set1_epi16(static_cast<int16_t>(weights[i]))));
+    }
+    _mm256_store_si256(reinterpret_cast<__m256i*>(mix.starts.data()), _mm256_and_si256(all, _mm256_load_si256(inner)));
+#elif defined(__SSE2__)
     __m128i low = _mm_setzero_si128(), high = low;
     for (size_t i = 0; i < n_rows; ++i) {
         const auto* row = reinterpret_cast<const __m128i*>(rows[i]->starts.data());
@@ -133,8 +152,8 @@ inline SymbolMix mean(const std::array<SymbolRow*, 3>& rows) {
 #if defined(EBZ_AVX2)
     const auto row = [&](size_t i) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(rows[i]->starts.data())); };
     const __m256i all = _mm256_avg_epu16(row(2), _mm256_avg_epu16(row(0), row(1)));
-    const __m256i others = _mm256_set_epi16(-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 0);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(mix.starts.data()), _mm256_and_si256(all, others));
+    const auto* inner = reinterpret_cast<const __m256i*>(symbol_rows::others.data());
+    _mm256_store_si256(reinterpret_cast<__m256i*>(mix.starts.data()), _mm256_and_si256(all, _mm256_load_si256(inner)));
 #else
     for (size_t k = 1; k < SymbolRow::n_symbols; ++k) {
         const uint32_t side = (uint32_t{rows[0]->starts[k]} + rows[1]->starts[k] + 1) >> 1;
@@ -148,45 +167,42 @@ inline SymbolMix mean(const std::array<SymbolRow*, 3>& rows) {
 // The row moves towards the symbol; rounding keeps each frequency at least_frequency or above.
 inline void learn(SymbolRow& row, const SymbolMix& mix, uint32_t symbol) {
     using namespace symbol_rows;
-    const uint16_t n_seen = row.starts[0];
-    const auto n_now = static_cast<uint16_t>(n_seen + (n_seen < max_seen));
+    const auto n_seen = static_cast<size_t>(row.starts[0] - SymbolRow::first_count);
     const int rate = rates[n_seen];
 #if defined(EBZ_AVX2)
-    auto* at = reinterpret_cast<__m256i*>(row.starts.data());
-    const __m256i target = _mm256_load_si256(reinterpret_cast<const __m256i*>(targets[symbol].data()));
-    __m256i old = _mm256_load_si256(at);
+    const auto at = [](const Target& table) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(table.data())); };
+    auto* starts = reinterpret_cast<__m256i*>(row.starts.data());
+    __m256i old = _mm256_load_si256(starts);
     if (n_seen == 0) {
         old = _mm256_load_si256(reinterpret_cast<const __m256i*>(mix.starts.data()));
-        const __m256i equal = _mm256_load_si256(reinterpret_cast<const __m256i*>(flat.starts.data()));
-        old = _mm256_add_epi16(old, _mm256_srai_epi16(_mm256_sub_epi16(equal, old), start_rate));
+        old = _mm256_add_epi16(old, _mm256_srai_epi16(_mm256_sub_epi16(at(flat), old), start_rate));
+        old = _mm256_or_si256(old, at(unseen));
     }
-    const __m256i moved = _mm256_add_epi16(old, _mm256_sra_epi16(_mm256_sub_epi16(target, old), _mm_cvtsi32_si128(rate)));
-    // Stored at once, as the next load of the row would wait for a part that is stored on its own.
-    const __m128i low = _mm_insert_epi16(_mm256_castsi256_si128(moved), n_now, 0);
-    _mm256_store_si256(at, _mm256_inserti128_si256(moved, low, 0));
+    const __m256i change = _mm256_sra_epi16(_mm256_sub_epi16(at(targets[symbol]), old), _mm_cvtsi32_si128(rate));
+    // The counter goes on by one with all else: were it stored on its own, the next load of the row would wait for it.
+    _mm256_store_si256(starts, _mm256_adds_epi16(_mm256_add_epi16(old, _mm256_and_si256(change, at(others))), at(one)));
 #elif defined(__SSE2__)
-    auto* at = reinterpret_cast<__m128i*>(row.starts.data());
-    const auto* target = reinterpret_cast<const __m128i*>(targets[symbol].data());
+    const auto at = [](const Target& table, int i) { return _mm_load_si128(reinterpret_cast<const __m128i*>(table.data()) + i); };
+    auto* starts = reinterpret_cast<__m128i*>(row.starts.data());
     const auto* start = reinterpret_cast<const __m128i*>(mix.starts.data());
-    const auto* equal = reinterpret_cast<const __m128i*>(flat.starts.data());
     const __m128i shift = _mm_cvtsi32_si128(rate);
     for (int i = 0; i < 2; ++i) {
-        __m128i old = _mm_load_si128(at + i);
+        __m128i old = _mm_load_si128(starts + i);
         if (n_seen == 0) {
             old = _mm_load_si128(start + i);
-            old = _mm_add_epi16(old, _mm_srai_epi16(_mm_sub_epi16(_mm_load_si128(equal + i), old), start_rate));
+            old = _mm_add_epi16(old, _mm_srai_epi16(_mm_sub_epi16(at(flat, i), old), start_rate));
+            old = _mm_or_si128(old, at(unseen, i));
         }
-        _mm_store_si128(at + i, _mm_add_epi16(old, _mm_sra_epi16(_mm_sub_epi16(_mm_load_si128(target + i), old), shift)));
+        const __m128i change = _mm_sra_epi16(_mm_sub_epi16(at(targets[symbol], i), old), shift);
+        _mm_store_si128(starts + i, _mm_adds_epi16(_mm_add_epi16(old, _mm_and_si128(change, at(others, i))), at(one, i)));
     }
 #else
     for (size_t i = 1; i < SymbolRow::n_symbols; ++i) {
         int old = row.starts[i];
-        if (n_seen == 0) old = mix.starts[i] + ((flat.starts[i] - mix.starts[i]) >> start_rate);
+        if (n_seen == 0) old = mix.starts[i] + ((flat[i] - mix.starts[i]) >> start_rate);
         row.starts[i] = static_cast<uint16_t>(old + ((targets[symbol][i] - old) >> rate));
     }
-#endif
-#if !defined(EBZ_AVX2)
-    row.starts[0] = n_now;
+    row.starts[0] = std::min<uint16_t>(row.starts[0] + 1, SymbolRow::last_count);
 #endif
 }
 
