@@ -47,44 +47,51 @@ private:
     size_t n_ = 0;
 };
 
-// How many points have the coordinates of one before on all axes but d.
-inline size_t n_repeated_places(std::span<const int64_t> values, size_t d) {
+// How many points have the coordinates of one before on all axes but d, but for so many low bits.
+inline size_t n_repeated_places(std::span<const int64_t> values, size_t d, int n_low) {
     const size_t n = values.size() / 3, i = d == 0 ? 1 : 0, j = d == 2 ? 1 : 2;
     Repeats repeats(n);
-    for (size_t v = 0; v < n; ++v)
-        repeats.add(static_cast<uint64_t>(values[3 * v + i]) * 0x9E3779B97F4A7C15u ^ static_cast<uint64_t>(values[3 * v + j]));
+    const auto high = [&](size_t at) { return static_cast<uint64_t>(values[at] >> n_low); };
+    for (size_t v = 0; v < n; ++v) repeats.add(high(3 * v + i) * 0x9E3779B97F4A7C15u ^ high(3 * v + j));
     return repeats.n();
 }
 
-// How many triangles are those of before, moved or mirrored.
+// How many triangles are those of before, moved or mirrored.  Those so small that this may be chance are not counted.
 inline size_t n_repeated_shapes(const Surface& mesh, std::span<const int64_t> values) {
-    Repeats repeats(mesh.vertex.size() / 3);
+    const size_t n = mesh.vertex.size() / 3;
+    const int least = 3 * (std::bit_width(n) + 6) / 2;  // digits of three sides, of which two tell the third
+    Repeats repeats(n);
     for (size_t c = 0; c + 2 < mesh.vertex.size(); c += 3) {
         uint64_t hash = 0;
+        int digits = 0;
         for (size_t k = 0; k < 3; ++k) {
             const size_t a = 3 * static_cast<size_t>(mesh.vertex[c + k]), b = 3 * static_cast<size_t>(mesh.vertex[c + (k + 1) % 3]);
             uint64_t edge = 0;
-            for (size_t d = 0; d < 3; ++d) edge = (edge ^ magnitude(wrapping_difference(values[a + d], values[b + d]))) * 0x9E3779B97F4A7C15u;
+            for (size_t d = 0; d < 3; ++d) {
+                const uint64_t step = magnitude(wrapping_difference(values[a + d], values[b + d]));
+                edge = (edge ^ step) * 0x9E3779B97F4A7C15u;
+                digits += std::bit_width(step);
+            }
             hash += edge ^ edge >> 32;  // whichever edge is the first
         }
-        repeats.add(hash);
+        if (digits >= least) repeats.add(hash);
     }
     return repeats.n();
 }
 
-// The orders that may give the shortest stream.  That one place in 12 or two shapes in 5 come again may be chance, that one
-// place in 4 does is none.
+// The orders that may give the shortest stream.
 inline std::vector<AxisOrder> axis_orders(const Surface& mesh, std::span<const int64_t> values) {
-    const size_t n = values.size() / 3, n_faces = mesh.vertex.size() / 3;
+    const size_t n = values.size() / 3;
     if (n == 0) return {AxisOrder{}};
     std::array<size_t, 3> repeats{};
-    for (size_t d = 0; d < 3; ++d) repeats[d] = n_repeated_places(values, d);
+    for (size_t d = 0; d < 3; ++d) repeats[d] = n_repeated_places(values, d, 0);
     uint8_t last = 2;
     for (const uint8_t d : {uint8_t{1}, uint8_t{0}})
         if (repeats[d] > repeats[last]) last = d;
+    // Places that come again by chance would do so four times as often without the lowest bits; others as often.
     const size_t most = repeats[last];
-    if (most * 4 >= n) return {AxisOrder{last}};
-    const bool is_alike = most * 12 >= n || n_repeated_shapes(mesh, values) * 5 >= 2 * n_faces;
+    if (most * 12 >= n && 16 * most >= n + 4 * n_repeated_places(values, last, 1)) return {AxisOrder{last}};
+    const bool is_alike = n_repeated_shapes(mesh, values) * 15 >= 2 * mesh.vertex.size();
     return is_alike ? std::vector{AxisOrder{}, AxisOrder{last}} : std::vector{AxisOrder{}};
 }
 
