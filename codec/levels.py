@@ -2,6 +2,7 @@
 
 from functools import cache
 
+from ebz.codec.attributes.plan import Effort as AttributeEffort
 from ebz.codec.connectivity import WordModel
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
@@ -40,9 +41,11 @@ def position_method(level: int) -> Method:
     return Method.LIGHT if level < 7 else Method.STRONG
 
 
-def has_fast_attributes(level: int) -> bool:
-    """Whether attributes are to take few operations."""
-    return level < 6
+def attribute_effort(level: int) -> AttributeEffort:
+    """How hard the models of attributes work."""
+    if level < 3:
+        return AttributeEffort.FAST
+    return AttributeEffort.MEDIUM if level < 6 else AttributeEffort.FULL
 
 
 def guaranteed_by(model: WordModel) -> AnyTable:

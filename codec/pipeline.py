@@ -14,6 +14,7 @@ from ebz.codec.arrays import Attributes, face_dtype
 from ebz.codec.attributes import coding, corners, rows
 from ebz.codec.attributes.coding import EXACT
 from ebz.codec.attributes.items import Sites
+from ebz.codec.attributes.plan import Effort
 from ebz.codec.attributes.precision import AttributePrecision, is_name_of_normal
 from ebz.codec.attributes.rounding import rounded
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
@@ -24,7 +25,7 @@ from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.fitting import LOSSLESS, Precision
 from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
 from ebz.codec.lattice import Points
-from ebz.codec.levels import DEFAULT_LEVEL, has_fast_attributes, position_method, word_models
+from ebz.codec.levels import DEFAULT_LEVEL, attribute_effort, position_method, word_models
 from ebz.codec.mesh import Mesh
 from ebz.codec.order import OrderStreams, SourceOrder
 from ebz.codec.welding import Split
@@ -106,7 +107,7 @@ def encode(
     placed = lattice.taken(stored, order.vertices)
     sites = Sites(surface, split, placed, kept)
     of_vertices, of_faces, of_corners = _encode_attributes(
-        mesh, order, sites, attribute_precision, fast=has_fast_attributes(level)
+        mesh, order, sites, attribute_precision, effort=attribute_effort(level)
     )
     encoded = EncodedMesh(
         dtype=stored.dtype,
@@ -191,16 +192,18 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
 
 
 def _encode_attributes(
-    mesh: Mesh, order: OutputOrder, sites: Sites, precision: AttributePrecision, *, fast: bool
+    mesh: Mesh, order: OutputOrder, sites: Sites, precision: AttributePrecision, *, effort: Effort
 ) -> tuple[list[EncodedArray], list[EncodedArray], list[EncodedArray]]:
     """Those of vertices, faces and corners; nothing is worked out for those there are none of."""
     of_vertices, of_faces, of_corners = [], [], []
     if values := mesh.vertex_attributes:
-        of_vertices = coding.encode(values, order.vertices, sites.by_vertex, precision, fast=fast)
+        of_vertices = coding.encode(
+            values, order.vertices, sites.by_vertex, precision, effort=effort
+        )
     if values := mesh.face_attributes:
-        of_faces = coding.encode(values, order.faces, sites.by_face, precision, fast=fast)
+        of_faces = coding.encode(values, order.faces, sites.by_face, precision, effort=effort)
     if values := mesh.corner_attributes:
-        of_corners = corners.encode(values, order.all_corners, sites, precision, fast=fast)
+        of_corners = corners.encode(values, order.all_corners, sites, precision, effort=effort)
     return of_vertices, of_faces, of_corners
 
 

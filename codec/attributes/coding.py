@@ -17,7 +17,7 @@ from ebz.codec.attributes.bundles import Bundle, bundles
 from ebz.codec.attributes.items import Items
 from ebz.codec.attributes.lattices import bytes_of_floats
 from ebz.codec.attributes.octahedral import Octahedral
-from ebz.codec.attributes.plan import Guess, Method, Plan
+from ebz.codec.attributes.plan import Effort, Guess, Method, Plan
 from ebz.codec.attributes.precision import AttributePrecision, lattice_of
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import CorruptError, corrupt_at
@@ -35,10 +35,10 @@ def encode(
     items: Items,
     precision: AttributePrecision = EXACT,
     *,
-    fast: bool = False,
+    effort: Effort = Effort.FULL,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source entry of each output entry."""
-    one = partial(encode_bundle, items=items, precision=precision, fast=fast)
+    one = partial(encode_bundle, items=items, precision=precision, effort=effort)
     return encode_each(attributes, order, precision, one)
 
 
@@ -79,9 +79,13 @@ def _by_name(array: EncodedArray, values: npt.NDArray[Any]) -> Attributes:
 
 
 def encode_bundle(
-    bundle: Bundle, items: Items, precision: AttributePrecision = EXACT, *, fast: bool = False
+    bundle: Bundle,
+    items: Items,
+    precision: AttributePrecision = EXACT,
+    *,
+    effort: Effort = Effort.FULL,
 ) -> EncodedArray:
-    """The shortest of the streams that suit the values; fast: of those that take little time."""
+    """The shortest of the streams that suit the values and take no more than the effort."""
     values = items.arranged(bundle.values)
     array = EncodedArray(bundle.names, values.dtype.newbyteorder("="), values.shape[1:], b"")
     if not values.size:
@@ -90,14 +94,14 @@ def encode_bundle(
     lattice = lattice_of(flat, precision.of(bundle.names[0])) or lattices.fit(flat)
     plan, integers = specials.integers(flat, lattice)
     plans = list(_plans(plan, integers, flat, items, array))
-    best = _shortest(plans, items, array, fast=fast)
+    best = _shortest(plans, items, array, effort=effort)
     if items.of_source is not None:
         rows = items.rows_of_source
         integers = rows.arranged(items.rearranged(integers))
         if _rough_size(integers) < _size(best):
             plan = plan._replace(in_source_order=True)
             plans = list(_plans(plan, integers, flat, rows, array))
-            best = min(best, _shortest(plans, rows, array, fast=fast), key=_size)
+            best = min(best, _shortest(plans, rows, array, effort=effort), key=_size)
     return array._replace(plan=best[0], data=best[1])
 
 
@@ -121,11 +125,12 @@ def decode_array(array: EncodedArray, items: Items) -> npt.NDArray[Any]:
 
 
 def _shortest(
-    plans: list[tuple[Plan, Integers]], items: Items, array: EncodedArray, *, fast: bool
+    plans: list[tuple[Plan, Integers]], items: Items, array: EncodedArray, *, effort: Effort
 ) -> tuple[Plan, bytes]:
     """The plan with the fewest bytes, and its stream."""
-    coded = _encode_all(_fast(plans, array), items, array)
-    slow = [pair for pair in plans if not (fast and coded) or _has_few_labels(pair[0])]
+    coded = _encode_all(_fast(plans, array, effort), items, array)
+    is_done = bool(coded) and effort < Effort.FULL
+    slow = [pair for pair in plans if not is_done or _has_few_labels(pair[0])]
     return min(coded + _encode_all(slow, items, array), key=_size)
 
 
@@ -155,10 +160,15 @@ def _plans(
             yield plan._replace(method=method, n_labels=n_labels, labels=stream), numbers
 
 
-def _fast(plans: list[tuple[Plan, Integers]], array: EncodedArray) -> list[tuple[Plan, Integers]]:
-    """The plan that takes few operations a value; none for bits of floats."""
+def _fast(
+    plans: list[tuple[Plan, Integers]], array: EncodedArray, effort: Effort
+) -> list[tuple[Plan, Integers]]:
+    """The plan that takes few operations a value, if there is room for it.
+
+    What floats gain by more is worth the time beyond the least effort.
+    """
     plain, integers = plans[0]
-    if _space(plain, array):
+    if _space(plain, array) > (SPACES[4] if effort == Effort.FAST else 0):
         return []
     return [(plain._replace(method=Method.FAST), integers)]
 

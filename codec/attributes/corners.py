@@ -13,6 +13,7 @@ from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding
 from ebz.codec.attributes.bundles import Bundle
 from ebz.codec.attributes.items import Sites
+from ebz.codec.attributes.plan import Effort
 from ebz.codec.attributes.precision import AttributePrecision
 from ebz.codec.connectivity import Int32s
 from ebz.codec.encoded import EncodedArray
@@ -25,10 +26,10 @@ def encode(
     sites: Sites,
     precision: AttributePrecision,
     *,
-    fast: bool,
+    effort: Effort,
 ) -> list[EncodedArray]:
     """A stream per bundle; `order` gives the source corner of each corner of the output."""
-    one = partial(_encode, sites=sites, precision=precision, fast=fast)
+    one = partial(_encode, sites=sites, precision=precision, effort=effort)
     return coding.encode_each(attributes, order, precision, one)
 
 
@@ -38,7 +39,7 @@ def decode(arrays: Sequence[EncodedArray], sites: Sites) -> Attributes:
 
 
 def _encode(
-    bundle: Bundle, sites: Sites, precision: AttributePrecision, *, fast: bool
+    bundle: Bundle, sites: Sites, precision: AttributePrecision, *, effort: Effort
 ) -> EncodedArray:
     kinds = _kinds(bundle.values, sites.vertex)
     seams, wedge = _kernels.encode_splits(*_fans(sites), kinds)
@@ -46,7 +47,7 @@ def _encode(
     corner = np.empty(n_wedges, np.int64)
     corner[wedge] = np.arange(len(wedge))
     bundle = bundle._replace(values=bundle.values[corner])
-    array = coding.encode_bundle(bundle, sites.by_wedge(wedge, n_wedges), precision, fast=fast)
+    array = coding.encode_bundle(bundle, sites.by_wedge(wedge, n_wedges), precision, effort=effort)
     return array._replace(seams=seams if n_wedges > sites.n_used else b"")
 
 

@@ -17,6 +17,14 @@ class Method(enum.IntEnum):
     FAST = 2
 
 
+class Effort(enum.IntEnum):
+    """What decoding may take."""
+
+    FAST = 0  # few operations a value, but for labels and float64
+    MEDIUM = 1  # more for floats
+    FULL = 2
+
+
 class Relation(enum.IntEnum):
     """What components have to do with each other; numbers as in kernels/attributes."""
 

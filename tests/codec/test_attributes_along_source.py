@@ -54,9 +54,9 @@ def test_an_order_that_is_not_kept_is_refused():
     mesh = shuffled(torus(400))
     mesh = replace(mesh, vertex_attributes={"id": np.arange(mesh.n_vertices)})
     kept, _ = pipeline.encode(mesh, keep_order=True)
-    streams = replace(kept.streams, order=pipeline.OrderStreams())
+    streams = kept.streams._replace(order=pipeline.OrderStreams())
     with pytest.raises(ebz.CorruptError, match="an order that is not kept"):
-        pipeline.decode(replace(kept, streams=streams))
+        pipeline.decode(kept._replace(streams=streams))
 
 
 def face_normals(mesh: ebz.Mesh) -> np.ndarray:

@@ -42,7 +42,11 @@ def test_attributes() -> None:
     mesh = ebz.Mesh(
         rng.random((n, 3)),
         faces,
-        {"a": rng.integers(0, 200, (n, 4)), "normal": rng.normal(size=(n, 3))},
+        {
+            "a": rng.integers(0, 200, (n, 4)),
+            "normal": rng.normal(size=(n, 3)),
+            "f": rng.normal(size=(n, 4)).astype(np.float32) ** 9,
+        },
         {"b": rng.integers(-9, 9, m) ** 9},
         corner_attributes={"c": rng.integers(0, 2, (3 * m, 2))},
     )

@@ -75,7 +75,7 @@ void code(Coder& coder, const Items& items, const Coding& coding, std::span<int6
 }  // namespace
 
 std::vector<uint8_t> encode(const Items& items, const Coding& coding, std::span<const int64_t> values) {
-    if (coding.method == Method::fast) return encode_by_best_instructions(items, values);
+    if (coding.method == Method::fast) return encode_by_best_instructions(items, coding.space, values);
     // The shared path writes to each item what it read from it.
     std::vector<int64_t> copy(values.begin(), values.end());
     RangeEncoder coder;
@@ -84,7 +84,7 @@ std::vector<uint8_t> encode(const Items& items, const Coding& coding, std::span<
 }
 
 void decode(std::span<const uint8_t> bytes, const Items& items, const Coding& coding, std::span<int64_t> values) {
-    if (coding.method == Method::fast) return decode_by_best_instructions(bytes, items, values);
+    if (coding.method == Method::fast) return decode_by_best_instructions(bytes, items, coding.space, values);
     RangeDecoder coder(bytes);
     code(coder, items, coding, values);
 }

@@ -1,6 +1,7 @@
 // Attributes in the order of the faces, in integers of 32 bits: the models of positions/fast_model.hpp.
 //
-// One way of expecting values is taken for all of an attribute; the encoder tries each.
+// One way of expecting values is taken for all of an attribute; the encoder tries each.  Floats of 32 bits
+// are expected as such, and differ by the floats in between.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "../positions/fast_model.hpp"
@@ -82,7 +85,8 @@ void along_rows(const Items& items, Code code) {
     for (int32_t row = 0; row < items.n; ++row) code(row, Near{row - 1, row - 1, std::max(row - 2, 0), row < 2 ? near_nothing : near_both});
 }
 
-template <class Coder>
+// S: IntegerSpace, or Float32.
+template <class S, class Coder>
 class FastCoder {
 public:
     // values: in groups of three components, zeros beyond the last; guess: alike, or none.
@@ -119,9 +123,19 @@ private:
     }
 
     uint32_t expect(size_t a, size_t b, size_t across) const {
+        if constexpr (std::is_same_v<S, Float32>) return expect_float(a, b, across);
         switch (way_.expected) {
             case Expected::parallelogram: return values_[a] + values_[b] - values_[across];
             case Expected::mean: return values_[a] + static_cast<uint32_t>(static_cast<int32_t>(values_[b] - values_[a]) >> 1);
+            default: return values_[a];
+        }
+    }
+
+    uint32_t expect_float(size_t a, size_t b, size_t across) const {
+        const auto of = [&](size_t i) { return S::value(static_cast<int32_t>(values_[i])); };
+        switch (way_.expected) {
+            case Expected::parallelogram: return static_cast<uint32_t>(S::nearest(of(a) + of(b) - of(across)));
+            case Expected::mean: return static_cast<uint32_t>(S::nearest((of(a) + of(b)) * 0.5));
             default: return values_[a];
         }
     }
@@ -158,20 +172,20 @@ std::vector<uint32_t> in_groups(const Items& items, std::span<const Value> value
     return groups;
 }
 
-inline std::vector<uint32_t> guess_of(const Items& items) {
-    return in_groups(items, items.guess, [](double x) { return IntegerSpace::nearest(x); });
+template <class S>
+std::vector<uint32_t> guess_of(const Items& items) {
+    return in_groups(items, items.guess, [](double x) { return S::nearest(x); });
 }
 
-std::vector<uint8_t> encode_fast(const Items& items, std::span<const int64_t> values) {
-    for (const int64_t x : values)
-        if (x != static_cast<int32_t>(x)) return {};
-    std::vector<uint32_t> groups = in_groups(items, values, [](int64_t x) { return x; });
-    const std::vector<uint32_t> guess = guess_of(items);
+// groups: the values; they are written as they were read.
+template <class S>
+std::vector<uint8_t> encode_shortest(const Items& items, std::span<uint32_t> groups) {
+    const std::vector<uint32_t> guess = guess_of<S>(items);
     std::vector<uint8_t> best;
     FastWay best_way;
     const auto attempt = [&](FastWay way) {
         positions::TwoPartEncoder coder;
-        FastCoder(coder, way, width_of(items), groups, guess).run(items);
+        FastCoder<S, positions::TwoPartEncoder>(coder, way, width_of(items), groups, guess).run(items);
         std::vector<uint8_t> bytes = coder.finish();
         if (!best.empty() && bytes.size() >= best.size()) return;
         best = std::move(bytes);
@@ -184,13 +198,26 @@ std::vector<uint8_t> encode_fast(const Items& items, std::span<const int64_t> va
     return best;
 }
 
-void decode_fast(std::span<const uint8_t> bytes, const Items& items, std::span<int64_t> values) {
-    const size_t width = width_of(items), k = items.n_components;
-    std::vector<uint32_t> groups(static_cast<size_t>(items.n) * width);
-    const std::vector<uint32_t> guess = guess_of(items);
+template <class S>
+void decode_groups(std::span<const uint8_t> bytes, const Items& items, std::span<uint32_t> groups) {
+    const std::vector<uint32_t> guess = guess_of<S>(items);
     const FastWay way = FastWay::of(bytes.empty() ? 0 : bytes[0]);
     positions::TwoPartDecoder coder(bytes.subspan(std::min<size_t>(bytes.size(), 1)));
-    FastCoder(coder, way, width, groups, guess).run(items);
+    FastCoder<S, positions::TwoPartDecoder>(coder, way, width_of(items), groups, guess).run(items);
+}
+
+std::vector<uint8_t> encode_fast(const Items& items, Space space, std::span<const int64_t> values) {
+    for (const int64_t x : values)
+        if (x != static_cast<int32_t>(x)) return {};
+    std::vector<uint32_t> groups = in_groups(items, values, [](int64_t x) { return x; });
+    return space == Space::float32 ? encode_shortest<Float32>(items, groups) : encode_shortest<IntegerSpace>(items, groups);
+}
+
+void decode_fast(std::span<const uint8_t> bytes, const Items& items, Space space, std::span<int64_t> values) {
+    const size_t width = width_of(items), k = items.n_components;
+    std::vector<uint32_t> groups(static_cast<size_t>(items.n) * width);
+    if (space == Space::float32) decode_groups<Float32>(bytes, items, groups);
+    else decode_groups<IntegerSpace>(bytes, items, groups);
     for (size_t i = 0, at = 0; i < values.size(); i += k, at += width)
         for (size_t c = 0; c < k; ++c) values[i + c] = static_cast<int32_t>(groups[at + c]);
 }
