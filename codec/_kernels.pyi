@@ -175,16 +175,16 @@ def to_multiples(coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None
     """The nearest integers to (x - origin) / step."""
 
 @overload
-def from_multiples(multiples: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+def from_multiples(multiples: Annotated[NDArray[numpy.int32], dict(shape=(None, None), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
 
 @overload
-def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None, None), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
 
 @overload
-def from_multiples(multiples: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
+def from_multiples(multiples: Annotated[NDArray[numpy.int32], dict(shape=(None, None), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None: ...
 
 @overload
-def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None, 3), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+def from_multiples(multiples: Annotated[NDArray[numpy.int64], dict(shape=(None, None), device='cpu', writable=False)], origin: tuple[float, float, float], step: float, coordinates: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """Fills coordinates with origin + step * integer."""
 
 def encode_attribute(opposite: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], item: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], offsets: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n: int, n_components: int, points: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], site: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], guess: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], method: int, space: int, relation: int, total: float, heights: bool, by_area: bool, values: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> bytes:
@@ -227,6 +227,16 @@ def encode_integers(values: Annotated[NDArray[numpy.uint64], dict(shape=(None,),
 
 def decode_integers(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n_rows: int, n_columns: int) -> Annotated[NDArray[numpy.uint64], dict(shape=(None,))]:
     """The rows, flattened."""
+
+def decode_list(data: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], n: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """The n integers of a list, ascending."""
+
+@overload
+def look_up(list: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]: ...
+
+@overload
+def look_up(list: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int64], dict(shape=(None, None), device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+    """The listed integers of rows of numbers, flattened."""
 
 class TextCoder:
     """Of text like a prior."""

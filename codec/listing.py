@@ -10,15 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.errors import CorruptError
-from ebz.codec.integers import decode_columns, encode_columns
+from ebz.codec.integers import encode_columns
 from ebz.codec.lattice import Integers
 
 Unsigned = npt.NDArray[np.uint64]
 
 # What there is of a magnitude.
 PLAIN, MIRRORED, BOTH = range(3)
-MAX_PLAIN_BITS = 63
+MAX_PLAIN_BITS = 57
 HAS_BOTH = 64
 
 
@@ -35,9 +34,9 @@ class Listing(NamedTuple):
 
     def at(self, which: Integers) -> Integers:
         """The integers of those numbers; raises CorruptError where there is none."""
-        if which.size and (which.min() < 0 or which.max() >= self.n):
-            raise CorruptError(f"a number that is none of the {self.n} listed")
-        return _decode(self.n, self.data)[which]
+        found = _kernels.decode_list(np.frombuffer(self.data, np.uint8), self.n)
+        rows = which if which.ndim == 2 else which.reshape(-1, 1)
+        return _kernels.look_up(found, rows).reshape(which.shape)
 
 
 def listing_of(found: Integers) -> Listing:
@@ -67,31 +66,6 @@ def _widths(steps: Unsigned) -> list[int]:
 def _encode(kinds: Unsigned, steps: Unsigned, n_plain: int) -> bytes:
     n_both = int(np.count_nonzero(kinds == BOTH))
     head = [n_plain + HAS_BOTH, *n_both.to_bytes(2, "little")] if n_both else [n_plain]
-    bits = (steps[:, None] >> _shifts(n_plain) & np.uint64(1)).astype(np.uint8)
+    bits = (steps[:, None] >> np.arange(n_plain, dtype=np.uint64) & np.uint64(1)).astype(np.uint8)
     coded = encode_columns(kinds, steps >> np.uint64(n_plain))
-    return bytes(head) + np.packbits(bits).tobytes() + coded
-
-
-def _decode(n: int, data: bytes) -> Integers:
-    if not data:
-        raise CorruptError("an empty list")
-    n_plain, n_both, start = data[0] & ~HAS_BOTH, 0, 1
-    if data[0] & HAS_BOTH:
-        n_both, start = int.from_bytes(data[1:3], "little"), 3
-    n_rows = n - n_both
-    end = start + -(-n_rows * n_plain // 8)
-    if n_both > n or n_plain > MAX_PLAIN_BITS or end > len(data):
-        raise CorruptError(f"a list of {n} integers with {n_plain} plain bits each")
-    kinds, steps = decode_columns(data[end:], n_rows, 2)
-    bits = np.unpackbits(np.frombuffer(data[start:end], np.uint8), count=n_rows * n_plain)
-    low = bits.reshape(n_rows, n_plain).astype(np.uint64) << _shifts(n_plain)
-    steps = (steps << np.uint64(n_plain)) + low.sum(axis=1, dtype=np.uint64)
-    magnitudes: Integers = np.cumsum(steps).astype(np.int64)
-    found = np.concatenate([magnitudes[kinds != MIRRORED], ~magnitudes[kinds != PLAIN]])
-    if len(found) != n or (kinds > BOTH).any():
-        raise CorruptError(f"a list of {len(found)} integers, not {n}")
-    return np.sort(found)
-
-
-def _shifts(n: int) -> Unsigned:
-    return np.arange(n, dtype=np.uint64)[::-1]
+    return bytes(head) + np.packbits(bits, bitorder="little").tobytes() + coded

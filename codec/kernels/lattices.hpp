@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "rows.hpp"
+
 namespace ebz {
 
 // The largest multiple of a step that a lattice uses; sums of a few stay exact in 64 bits.
@@ -30,15 +32,7 @@ struct Steps {
 template <class Float>
 void to_multiples(std::span<const Float> coordinates, const Steps& steps, std::span<int64_t> multiples);
 
-// Rows of three, at any distance.
-template <class Integer>
-struct Rows {
-    const Integer* first;
-    size_t n;
-    int64_t stride;
-};
-
-// coordinates: 3 per row.
+// Rows of three; coordinates: as many.
 template <class Integer, class Float>
 void from_multiples(const Rows<Integer>& multiples, const Steps& steps, std::span<Float> coordinates);
 

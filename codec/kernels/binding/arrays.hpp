@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../errors.hpp"
+#include "../rows.hpp"
 
 namespace ebz::binding {
 
@@ -24,8 +25,19 @@ template <class T>
 using Array = nb::ndarray<nb::numpy, T, nb::ndim<1>>;
 
 template <class T>
+using InputRows = nb::ndarray<const T, nb::ndim<2>, nb::device::cpu>;
+template <class T>
+using ArrayOfRows = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
+
+template <class T>
 std::span<const T> view(const Input<T>& array) {
     return {array.data(), array.size()};
+}
+
+template <class T>
+ebz::Rows<T> view(const InputRows<T>& rows) {
+    if (rows.shape(1) > 1 && rows.stride(1) != 1) throw nb::value_error("rows that are not contiguous");
+    return {rows.data(), rows.shape(0), rows.shape(1), rows.stride(0)};
 }
 
 // Hands the memory of a vector over to numpy.

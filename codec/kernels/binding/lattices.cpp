@@ -61,18 +61,12 @@ Array<int64_t> to_multiples(const Input<Float>& coordinates, const Numbers3& ori
     }));
 }
 
-template <class Integer>
-using InputRows = nb::ndarray<const Integer, nb::shape<-1, 3>, nb::device::cpu>;
-
 template <class Integer, class Float>
 void from_multiples(const InputRows<Integer>& multiples, const Numbers3& origin, double step,
                     const Output<Float>& coordinates) {
-    if (multiples.stride(1) != 1) throw nb::value_error("the rows of multiples are not contiguous");
+    if (multiples.shape(1) != 3 || coordinates.size() != multiples.size()) throw nb::value_error("other than 3 axes");
     without_gil([&] {
-        const std::span<Float> filled(coordinates.data(), coordinates.size());
-        const size_t n = std::min(multiples.shape(0), filled.size() / 3);
-        const ebz::Rows<Integer> rows{multiples.data(), n, multiples.stride(0)};
-        ebz::from_multiples(rows, steps(origin, step), filled);
+        ebz::from_multiples(view(multiples), steps(origin, step), std::span(coordinates.data(), coordinates.size()));
     });
 }
 

@@ -35,9 +35,8 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
 
 // The memory of the coder itself: a position begins each of its rows.
 template <class Row, void (*decode)(std::span<const uint8_t>, const ebz::positions::Surface&, std::span<Row>)>
-nb::ndarray<nb::numpy, int32_t, nb::ndim<2>> decode_positions_in_place(const Input<uint8_t>& bytes,
-                                                                       const Input<int32_t>& opposite,
-                                                                       const Input<int32_t>& vertex, int32_t n_vertices) {
+ArrayOfRows<int32_t> decode_positions_in_place(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+                                               const Input<int32_t>& vertex, int32_t n_vertices) {
     const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
     const auto n = static_cast<size_t>(n_vertices);
     auto rows = std::make_unique_for_overwrite<Row[]>(n);

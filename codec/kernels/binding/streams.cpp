@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "../integers.hpp"
+#include "../lists.hpp"
 #include "../text.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
@@ -17,6 +18,15 @@ nb::bytes encode_integers(const Input<uint64_t>& values, size_t n_columns) {
 
 Array<uint64_t> decode_integers(const Input<uint8_t>& bytes, size_t n_rows, size_t n_columns) {
     return to_numpy(without_gil([&] { return ebz::decode_integers(view(bytes), n_rows, n_columns); }));
+}
+
+Array<int64_t> decode_list(const Input<uint8_t>& bytes, size_t n) {
+    return to_numpy(without_gil([&] { return ebz::decode_list(view(bytes), n); }));
+}
+
+template <class Number>
+Array<int64_t> look_up(const Input<int64_t>& list, const InputRows<Number>& numbers) {
+    return to_numpy(without_gil([&] { return ebz::look_up(view(list), view(numbers)); }));
 }
 
 nb::bytes encode_text(const ebz::TextCoder& coder, const Input<uint8_t>& text) {
@@ -38,6 +48,9 @@ void bind_streams(nb::module_& m) {
           "Rows of unsigned integers, a model per column.");
     m.def("decode_integers", &decode_integers, "data"_a, "n_rows"_a, "n_columns"_a,
           "The rows, flattened.");
+    m.def("decode_list", &decode_list, "data"_a, "n"_a, "The n integers of a list, ascending.");
+    m.def("look_up", &look_up<int32_t>, "list"_a, "numbers"_a);
+    m.def("look_up", &look_up<int64_t>, "list"_a, "numbers"_a, "The listed integers of rows of numbers, flattened.");
     nb::class_<ebz::TextCoder>(m, "TextCoder", "Of text like a prior.")
         .def("__init__",
              [](ebz::TextCoder* self, const Input<uint8_t>& prior) { new (self) ebz::TextCoder(view(prior)); }, "prior"_a)
