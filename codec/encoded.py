@@ -111,6 +111,12 @@ class EncodedMesh(NamedTuple):
     digest: bytes = b""
     places: Mapping[str, object] = NOWHERE
 
+    @property
+    def carries_more(self) -> bool:
+        """Whether there is anything beside the surface and points."""
+        attributes = self.vertex_attributes or self.face_attributes or self.corner_attributes
+        return bool(attributes or self.elements or self.metadata)
+
     def place(self, part: str) -> object:
         """Where in the file a part is: chunk and offset, the part's name where there is no file."""
         return self.places.get(part, part)

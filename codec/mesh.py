@@ -52,6 +52,19 @@ class Mesh:
     def __post_init__(self) -> None:
         self.vertices = _vertices(self.vertices)
         self.faces, self.face_offsets = _faces(self.faces, self.face_offsets, len(self.vertices))
+        self.check_carried()
+
+    @classmethod
+    def of_triangles(cls, vertices: npt.NDArray[Any], faces: npt.NDArray[Any]) -> "Mesh":
+        """A mesh of arrays that are known to be as it has them: nothing is checked."""
+        mesh = cls.__new__(cls)
+        mesh.vertices, mesh.faces, mesh.face_offsets = vertices, faces, None
+        mesh.vertex_attributes, mesh.face_attributes, mesh.corner_attributes = {}, {}, {}
+        mesh.elements, mesh.metadata = {}, {}
+        return mesh
+
+    def check_carried(self) -> None:
+        """Makes attributes contiguous; raises MeshError where they or the elements do not fit."""
         self.vertex_attributes = checked_attributes(
             "vertex", self.vertex_attributes, self.n_vertices
         )

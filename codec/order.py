@@ -54,7 +54,7 @@ class OrderStreams(NamedTuple):
     @property
     def any(self) -> bool:
         """Whether anything is kept."""
-        return self != OrderStreams()
+        return (self.vertices, self.faces, self.rotations) != (None, None, None)
 
 
 @dataclass(frozen=True)

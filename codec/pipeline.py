@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec import connectivity, fitting, lattice, metadata, positions, welding
+from ebz.codec import assembly, connectivity, fitting, lattice, metadata, positions, welding
 from ebz.codec import order as source_order
 from ebz.codec import points as free_points
-from ebz.codec.arrays import Attributes, face_dtype
+from ebz.codec.arrays import Attributes
 from ebz.codec.attributes import coding, corners, rows
 from ebz.codec.attributes.coding import EXACT
 from ebz.codec.attributes.items import Sites
@@ -19,11 +19,10 @@ from ebz.codec.attributes.precision import AttributePrecision, is_name_of_normal
 from ebz.codec.attributes.rounding import rounded
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
-from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.fitting import LOSSLESS, Precision
-from ebz.codec.integers import decode_columns, encode_columns, from_gaps, gaps
+from ebz.codec.integers import encode_columns, gaps
 from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, attribute_effort, position_method, word_models
 from ebz.codec.mesh import Mesh
@@ -40,16 +39,6 @@ class Decoded(NamedTuple):
     mesh: Mesh
     word: EncodedWord
     surface: Surface
-
-
-class Carried(NamedTuple):
-    """What a mesh has besides its surface, in output order."""
-
-    vertices: Attributes
-    faces: Attributes
-    corners: Attributes
-    elements: dict[str, Element]
-    metadata: dict[str, Any]
 
 
 def keeps_rotation(face_attributes: Attributes) -> bool:
@@ -157,32 +146,13 @@ def decode(encoded: EncodedMesh, *, progress: Progress | None = None) -> Decoded
     with corrupt_at(encoded.place("word" if streams.splits is None else "splits")):
         split = welding.split(surface, streams.splits, n_vertices)
     report("positions", 1, N_STAGES)
-    n_along = split.n_sites if streams.points is None else surface.n_vertices
-    coded = positions.Coded(streams.positions, encoded.coding, streams.listing)
-    with corrupt_at(encoded.place("positions")):
-        integers = positions.decode(coded, surface, n_along)
-    with corrupt_at(encoded.place("points")):
-        free = free_points.decode(streams.points, split.n_sites - n_along)
-    if len(free):
-        integers = np.concatenate([integers, free])
+    integers = assembly.decode_integers(encoded, surface, split.n_sites)
     report("lattice", 2, N_STAGES)
-    with corrupt_at(encoded.place("exceptions")):
-        points = Points(encoded.lattice, integers, _decode_exceptions(encoded, split.n_sites))
-        exact = _decode_values(streams.exception_values, encoded)
-    vertices = split.at_sites(lattice.restore(points, encoded.dtype, exact))
+    vertices = split.at_sites(assembly.decode_coordinates(encoded, integers))
     report("attributes", 3, N_STAGES)
-    kept = _decode_order(encoded, surface, split, integers)
+    kept = assembly.decode_order(encoded, surface, split, integers)
     sites = Sites(surface, split, vertices, kept)
-    carried = Carried(
-        coding.decode(encoded.vertex_attributes, sites.by_vertex)
-        if encoded.vertex_attributes
-        else {},
-        coding.decode(encoded.face_attributes, sites.by_face) if encoded.face_attributes else {},
-        corners.decode(encoded.corner_attributes, sites),
-        rows.decode(encoded.elements, sites),
-        _decode_metadata(encoded),
-    )
-    mesh = _arranged(sites, kept, carried)
+    mesh = assembly.arranged(sites, kept, assembly.decode_carried(encoded, sites))
     report("done", N_STAGES, N_STAGES)
     if digest(mesh) != encoded.digest:
         raise CorruptError(
@@ -217,23 +187,6 @@ def _encode_order(
     return source_order.encode(kept, known)
 
 
-def _decode_order(
-    encoded: EncodedMesh, surface: Surface, split: Split, integers: lattice.Integers
-) -> SourceOrder:
-    streams = encoded.streams.order
-    if not streams.any:
-        offsets = None if surface.polygons is None else surface.polygons.offsets
-        return SourceOrder(offsets=offsets)
-    at = split.at_sites(integers)
-    known = source_order.Known(surface.opposite, split.vertex, at, surface.polygons)
-    return source_order.decode(streams, known, place=encoded.place)
-
-
-def _decode_metadata(encoded: EncodedMesh) -> dict[str, Any]:
-    with corrupt_at(encoded.place("metadata")):
-        return metadata.decode(encoded.metadata)
-
-
 def _silent(stage: str, done: int, total: int) -> None:
     pass
 
@@ -246,52 +199,17 @@ def _encode_values(exact: lattice.Floats) -> bytes:
     return exact.astype(exact.dtype.newbyteorder("<")).tobytes()
 
 
-def _decode_values(data: bytes, encoded: EncodedMesh) -> lattice.Floats:
-    little = encoded.dtype.newbyteorder("<")
-    if len(data) != encoded.n_exceptions * little.itemsize:
-        raise CorruptError(f"{len(data)} bytes for {encoded.n_exceptions} values")
-    return np.frombuffer(data, little).astype(encoded.dtype, copy=False)
-
-
-def _decode_exceptions(encoded: EncodedMesh, n_vertices: int) -> npt.NDArray[np.int64]:
-    if not encoded.n_exceptions:
-        return np.zeros(0, np.int64)
-    (gap,) = decode_columns(encoded.streams.exception_rows, encoded.n_exceptions, 1)
-    rows = from_gaps(gap)
-    if (np.diff(rows, prepend=-1) <= 0).any() or (rows >= 3 * n_vertices).any():
-        raise CorruptError("rows do not ascend within the coordinates")
-    return rows
-
-
 def _restored(mesh: Mesh, order: OutputOrder, kept: SourceOrder, sites: Sites) -> Mesh:
     """The mesh as decoding will yield it."""
-    carried = Carried(
+    carried = assembly.Carried(
         _taken(mesh.vertex_attributes, order.vertices),
         _taken(mesh.face_attributes, order.faces) if mesh.face_attributes else {},
         _taken(mesh.corner_attributes, order.all_corners) if mesh.corner_attributes else {},
         rows.renumbered(mesh.elements, order.number_of),
         mesh.metadata,
     )
-    return _arranged(sites, kept, carried)
+    return assembly.arranged(sites, kept, carried)
 
 
 def _taken(attributes: Attributes, order: npt.NDArray[Any]) -> Attributes:
     return {name: values[order] for name, values in attributes.items()}
-
-
-def _arranged(sites: Sites, kept: SourceOrder, carried: Carried) -> Mesh:
-    """The mesh from what is in output order."""
-    corners = kept.source_vertices(kept.place_values(sites.of_faces(sites.vertex)))
-    corners = corners.astype(face_dtype(sites.n_vertices), copy=False)
-    return Mesh(
-        vertices=kept.place_vertices(sites.vertices),
-        faces=corners.reshape(-1, 3) if kept.offsets is None else corners,
-        face_offsets=kept.source_offsets,
-        vertex_attributes={k: kept.place_vertices(v) for k, v in carried.vertices.items()},
-        face_attributes={k: kept.place_faces(v) for k, v in carried.faces.items()},
-        corner_attributes={
-            k: kept.place_values(sites.of_faces(v)) for k, v in carried.corners.items()
-        },
-        elements=rows.renumbered(carried.elements, kept.source_vertices),
-        metadata=carried.metadata,
-    )

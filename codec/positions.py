@@ -32,8 +32,8 @@ class Method(enum.IntEnum):
 FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 
 
-# What is tried too for so few floats that it takes no time to speak of.
-NEXT = {Method.FAST: Method.LIGHT, Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
+# What is tried too for so few points that it takes no time to speak of, but where speed is all.
+NEXT = {Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
 MAX_FEW = 1024
 
 # Those that are tried; of the other methods the first.
@@ -181,6 +181,8 @@ def _cuts(surface: Surface, methods: Sequence[Method]) -> list[Coding]:
 
 def _along(surface: Surface, n_vertices: int, way: Cut) -> Along:
     """Of n vertices, those of the surface first."""
+    if surface.polygons is None:
+        return Along(surface.opposite, surface.vertex, n_vertices)
     is_usual = way == Cut.COMPLETING
     triangles = surface.triangles if is_usual else surface.cut(way)
     vertex, order = triangles.numbered(surface.vertex, n_vertices, as_they_are=True)

@@ -54,7 +54,7 @@ def check_end(data: memoryview, offset: int) -> None:
 
 def begin(data: memoryview) -> int:
     """Where the first chunk is; raises NotEbzError, VersionError or TruncatedError."""
-    if len(data) and layout.MAGIC.startswith(bytes(data[: len(layout.MAGIC) + 1])):
+    if len(data) <= len(layout.MAGIC) and layout.MAGIC.startswith(data) and len(data):
         raise TruncatedError(f"the file ends at byte {len(data)}, within its first bytes")
     if data[: len(layout.MAGIC)] != layout.MAGIC:
         raise NotEbzError("not an .ebz file" if len(data) else "not an .ebz file: it is empty")

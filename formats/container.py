@@ -5,11 +5,10 @@ records, for attributes and elements, is imported where a mesh has any: see decl
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ebz.codec.encoded import EncodedArray, EncodedElement, EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, VersionError, corrupt_at
 from ebz.codec.listing import Listing
+from ebz.codec.mesh import VERTEX_DTYPES
 from ebz.codec.models.load import AnyTable
 from ebz.codec.order import OrderStreams
 from ebz.formats import chunks, header, layout, payloads, tables
@@ -21,6 +20,7 @@ RANKS = {kind: rank for rank, kind in enumerate(layout.NAMES)}
 ORDER_CHUNKS = (layout.VERTEX_ORDER, layout.FACE_ORDER, layout.ROTATIONS)
 ATTRIBUTES = (layout.VERTEX_ATTRIBUTE, layout.FACE_ATTRIBUTE, layout.CORNER_ATTRIBUTE)
 REPEATED = {*ATTRIBUTES, layout.ELEMENT}
+DTYPES = {dtype.itemsize: dtype for dtype in VERTEX_DTYPES}
 
 
 def write(encoded: EncodedMesh, *, embed_model: bool = False) -> list[bytes]:
@@ -133,7 +133,7 @@ def _parse(
     exception_rows, exception_values = _parse_exceptions(found.get(layout.EXCEPTIONS))
     listing, positions = _parse_positions(found.get(layout.POSITIONS), head)
     return EncodedMesh(
-        dtype=np.dtype(f"f{head.itemsize}"),
+        dtype=DTYPES[head.itemsize],
         counts=head.counts,
         n_vertices=head.n_vertices,
         n_exceptions=head.n_exceptions,

@@ -4,6 +4,7 @@ Without construct, which takes longer than a small mesh does to decode.
 """
 
 import struct
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ebz.codec.connectivity import WordCounts
@@ -17,6 +18,16 @@ from ebz.codec.positions import FLOAT_METHODS, Coding, Method, can_cut
 from ebz.formats import lattices, layout, tables
 
 MAX_COUNT = 2**63
+COUNTS = (
+    "vertices",
+    "symbols",
+    "closed components",
+    "single triangles",
+    "special S",
+    "copies",
+    "exceptions",
+)
+POLYGON_COUNTS = ("polygons", "empty polygons", "corners of polygons")
 # Of faces: all are triangles, or of any size; else the size of all.
 TRIANGLES, MIXED = range(2)
 NO_SIZES = (2, 3)
@@ -90,10 +101,8 @@ class _Reader:
         itemsize = self._byte()
         if itemsize not in DTYPE_SIZES:
             raise CorruptError(f"coordinates of {itemsize} bytes")
-        n_vertices, n_symbols = self._count("vertices"), self._count("symbols")
-        n_closed, n_single = self._count("closed components"), self._count("single triangles")
-        n_specials, n_copies = self._count("special S"), self._count("copies")
-        n_exceptions = self._count("exceptions")
+        sizes = self._counts(COUNTS)
+        n_vertices, n_symbols, n_closed, n_single, n_specials, n_copies, n_exceptions = sizes
         _check_counts(n_vertices, n_symbols, n_closed, n_single)
         polygons = self._polygons(n_symbols + n_closed)
         model, number = self._byte(), self._byte()
@@ -124,15 +133,19 @@ class _Reader:
         self._at += 1
         return self._data[self._at - 1]
 
-    def _count(self, what: str) -> int:
-        try:
-            value, size = layout.read_varint(self._data, self._at)
-        except ValueError as error:
-            raise CorruptError(str(error)) from None
-        if value >= MAX_COUNT:
-            raise CorruptError(f"{value} {what}, past the limit of 2^63")
-        self._at += size
-        return value
+    def _counts(self, names: Sequence[str]) -> list[int]:
+        values = []
+        for _ in names:
+            try:
+                value, size = layout.read_varint(self._data, self._at)
+            except ValueError as error:
+                raise CorruptError(str(error)) from None
+            self._at += size
+            values.append(value)
+        for name, value in zip(names, values, strict=True):
+            if value >= MAX_COUNT:
+                raise CorruptError(f"{value} {name}, past the limit of 2^63")
+        return values
 
     def _polygons(self, n_triangles: int) -> PolygonCounts | None:
         face_size = self._byte()
@@ -142,8 +155,7 @@ class _Reader:
             return None
         if face_size != MIXED:
             return _polygons_of(face_size, n_triangles)
-        n_faces, n_empty = self._count("polygons"), self._count("empty polygons")
-        n_corners = self._count("corners of polygons")
+        n_faces, n_empty, n_corners = self._counts(POLYGON_COUNTS)
         n_runs = n_faces - n_empty
         if n_faces > MAX_FACES or not 0 <= n_runs <= n_triangles:
             raise CorruptError(f"{n_faces} polygons, {n_empty} of them empty")

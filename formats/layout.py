@@ -51,8 +51,11 @@ def read_varint(data: bytes | memoryview, at: int = 0) -> tuple[int, int]:
 
     Raises IndexError where the data ends within it and ValueError where it is too long.
     """
-    value = 0
-    for i in range(MAX_VARINT):
+    value = data[at]
+    if value < 0x80:
+        return value, 1
+    value &= 0x7F
+    for i in range(1, MAX_VARINT):
         byte = data[at + i]
         value |= (byte & 0x7F) << 7 * i
         if byte < 0x80:

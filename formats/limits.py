@@ -74,28 +74,34 @@ def declared_size(encoded: EncodedMesh) -> int:
         listing = streams.listing or Listing(0, b"")
         _check("listed coordinates", listing.n, CHEAPEST_BIT, listing.size)
         _check("exceptions", encoded.n_exceptions, CHEAPEST_BIT, len(streams.exception_rows))
-    n_coded = counts.n_faces - (counts.polygons.n_empty if counts.polygons else 0)
-    _check_order("face order", n_coded - 1, streams.order.faces, encoded)
-    _check_order("rotations", n_coded, streams.order.rotations, encoded)
-    with corrupt_at(encoded.place("metadata")):
-        text_size = check_text(encoded.metadata)
+    if streams.order.any:
+        n_coded = counts.n_faces - (counts.polygons.n_empty if counts.polygons else 0)
+        _check_order("face order", n_coded - 1, streams.order.faces, encoded)
+        _check_order("rotations", n_coded, streams.order.rotations, encoded)
     n_integers = counts.n_specials + counts.n_copies + encoded.n_exceptions + listing.n
     size = 0 if isinstance(encoded.model, AnyTable) else state_bytes(counts.n_symbols)
-    size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
-    size += _arrays_size(encoded.face_attributes, counts.n_faces)
-    size += sum(_elements_size(element) for element in encoded.elements)
-    # What is at a vertex may be one value: only decoding tells.
-    n_corners = 3 * counts.n_triangles
-    size += sum(
-        n_corners
-        * (3 * array.entry_size + BYTES_PER_COMPONENT * array.n_components + BYTES_PER_CORNER)
-        for array in encoded.corner_attributes
-    )
     n_faces = max(counts.n_faces, counts.n_triangles)
     if counts.polygons:
         n_faces += counts.n_triangles * (2 if encoded.coding.cut == Cut.TWICE else 1)
     size += BYTES_PER_FACE * n_faces + BYTES_PER_VERTEX * encoded.n_vertices
-    return size + text_size + BYTES_PER_INTEGER * n_integers
+    size += BYTES_PER_INTEGER * n_integers
+    return size + _carried_size(encoded) if encoded.carries_more else size
+
+
+def _carried_size(encoded: EncodedMesh) -> int:
+    """The memory of what is there besides the surface."""
+    with corrupt_at(encoded.place("metadata")):
+        size = check_text(encoded.metadata)
+    size += _arrays_size(encoded.vertex_attributes, encoded.n_vertices)
+    size += _arrays_size(encoded.face_attributes, encoded.counts.n_faces)
+    size += sum(_elements_size(element) for element in encoded.elements)
+    # What is at a vertex may be one value: only decoding tells.
+    n_corners = 3 * encoded.counts.n_triangles
+    return size + sum(
+        n_corners
+        * (3 * array.entry_size + BYTES_PER_COMPONENT * array.n_components + BYTES_PER_CORNER)
+        for array in encoded.corner_attributes
+    )
 
 
 def _check_order(part: str, count: int, stream: bytes | None, encoded: EncodedMesh) -> None:
