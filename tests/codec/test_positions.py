@@ -182,7 +182,7 @@ def test_floats_that_come_again_are_listed(dtype, level):
     encoded, _ = pipeline.encode(mesh, level=level)
     assert encoded.coding.is_listed
     assert encoded.streams.listing.n == 20
-    # A list costs less than its floats, a place in it little more than it says where that is learnt.
+    # A list costs less than its floats, a place in it little more than it says, if learnt.
     assert encoded.streams.listing.size < 20 * mesh.vertices.itemsize
     overhead = 1.5 if level == 1 else 1.15
     assert len(encoded.streams.positions) <= overhead * places.size * np.log2(20) / 8 + 40
