@@ -24,6 +24,8 @@ from ebz.codec.specials import decode_specials, encode_specials
 Int32s = npt.NDArray[np.int32]
 Int64s = npt.NDArray[np.int64]
 WordModel = AnyTable | Effort
+# From a corner of a triangle, by its number there, to each of the three in turn.
+_TURNS = np.array([[0, 1, 2], [0, 1, -1], [0, -2, -1]], np.int32)
 
 # Of a symbol; less than what the certified tables take, on any mesh that is not tiny.
 SURE_BITS = 1.5
@@ -147,8 +149,7 @@ class OutputOrder(NamedTuple):
         """(3t,) the corner of the source that becomes each corner of a triangle."""
         if self.polygons is not None:
             return self.polygons.corners
-        second = _next(self.corners)
-        return np.stack([self.corners, second, _next(second)], axis=1).reshape(-1)
+        return (self.corners[:, None] + _TURNS[self.corners % 3]).reshape(-1)
 
 
 def encode(
@@ -381,10 +382,6 @@ def _compact(faces: npt.NDArray[Any], n_vertices: int) -> tuple[Int64s | None, I
         return None, np.ascontiguousarray(faces, np.int32)
     used, compact = np.unique(faces, return_inverse=True)
     return used.astype(np.int64), compact.astype(np.int32)
-
-
-def _next(corners: Int32s) -> Int32s:
-    return np.where(corners % 3 == 2, corners - 2, corners + 1)
 
 
 def _with_isolated(order: Int64s, n_vertices: int) -> Int64s:

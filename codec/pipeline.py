@@ -89,7 +89,7 @@ def encode(
     exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
     report("attributes", 3, N_STAGES)
     keep_rotation = keeps_rotation(mesh.face_attributes)
-    split = welding.split(surface, arrangement.splits, len(stored))
+    split = arrangement.split
     kept = source_order.kept(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation
     )

@@ -13,7 +13,7 @@ def encode(arrangement: Arrangement, integers: Integers) -> tuple[Arrangement, b
 
     integers: (n, 3) the lattice coordinates of the source's vertices.
     """
-    n_used = int(arrangement.vertex.max(initial=-1)) + 1
+    n_used = len(arrangement.vertices) - arrangement.split.n_isolated
     free = arrangement.vertices[n_used:]
     if not len(free):
         return arrangement, None

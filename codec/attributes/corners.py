@@ -15,7 +15,7 @@ from ebz.codec.attributes.bundles import Bundle
 from ebz.codec.attributes.items import Sites
 from ebz.codec.attributes.plan import Effort
 from ebz.codec.attributes.precision import AttributePrecision
-from ebz.codec.connectivity import Int32s
+from ebz.codec.connectivity import Int32s, Int64s
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import corrupt_at
 
@@ -41,12 +41,10 @@ def decode(arrays: Sequence[EncodedArray], sites: Sites) -> Attributes:
 def _encode(
     bundle: Bundle, sites: Sites, precision: AttributePrecision, *, effort: Effort
 ) -> EncodedArray:
-    kinds = _kinds(bundle.values, sites.vertex)
-    seams, wedge = _kernels.encode_splits(*_fans(sites), kinds)
-    n_wedges = int(wedge.max(initial=-1)) + 1
-    corner = np.empty(n_wedges, np.int64)
-    corner[wedge] = np.arange(len(wedge))
-    bundle = bundle._replace(values=bundle.values[corner])
+    corners, kinds = _kinds(bundle.values, sites.vertex)
+    seams, wedge, _, kind = _kernels.encode_splits(*_fans(sites), kinds)
+    n_wedges = len(kind)
+    bundle = bundle._replace(values=bundle.values[corners[kind]])
     array = coding.encode_bundle(bundle, sites.by_wedge(wedge, n_wedges), precision, effort=effort)
     return array._replace(seams=seams if n_wedges > sites.n_used else b"")
 
@@ -67,12 +65,13 @@ def _fans(sites: Sites) -> tuple[Int32s, Int32s, Int32s, Int32s, int]:
     return sites.opposite, fan, sites.vertex, vertex_of_fan, sites.n_used
 
 
-def _kinds(values: npt.NDArray[Any], vertex: Int32s) -> Int32s:
-    """A number for each corner, the same for corners of one vertex and value."""
+def _kinds(values: npt.NDArray[Any], vertex: Int32s) -> tuple[Int64s, Int32s]:
+    """A corner of each kind, and the kind of each: that of corners of one vertex and value."""
     n, size = len(values), values.itemsize * math.prod(values.shape[1:])
     keys = np.ascontiguousarray(values).reshape(-1).view(np.uint8).reshape(n, size)
     columns = np.concatenate(
         [np.ascontiguousarray(vertex).view(np.uint8).reshape(n, 4), keys], axis=1
     )
     rows = np.ascontiguousarray(columns).view(np.dtype((np.void, columns.shape[1])))[:, 0]
-    return np.unique(rows, return_inverse=True)[1].astype(np.int32)
+    _, corners, kinds = np.unique(rows, return_index=True, return_inverse=True)
+    return corners, kinds.astype(np.int32)

@@ -17,9 +17,14 @@ public:
 
     SplitTruth(std::span<const Index> opposite, std::span<const Index> fan, Index n_fans, std::span<const Index> label)
         : label_(label), rank_(label.empty() ? 0 : static_cast<size_t>(*std::max_element(label.begin(), label.end())) + 1, none) {
+        is_apart_ = are_different();
+        if (is_apart_) return;
         find_cuts(fan, n_fans);
         find_gaps(FanSpokes(opposite, fan));
     }
+
+    // Whether each corner has a vertex of its own.
+    bool is_apart() const { return is_apart_; }
 
     bool differ(Index a, Index b) const { return label_[a] != label_[b]; }
     bool is_cut(Index fan) const { return is_cut_[fan]; }
@@ -29,17 +34,17 @@ public:
     Index& rank(Index corner) { return rank_[label_[corner]]; }
     Index& rank_of_fan(Index f) { return rank_[label_of_fan_[f]]; }
 
-    // Whether each corner has a vertex of its own.
-    bool is_apart() const {
-        std::vector<bool> seen(rank_.size());
-        return std::none_of(label_.begin(), label_.end(), [&](Index label) {
-            const bool again = seen[label];
+private:
+    bool are_different() const {
+        if (rank_.size() < label_.size()) return false;
+        std::vector<uint8_t> seen(rank_.size());
+        for (const Index label : label_) {
+            if (seen[label]) return false;
             seen[label] = true;
-            return again;
-        });
+        }
+        return true;
     }
 
-private:
     void find_cuts(std::span<const Index> fan, Index n_fans) {
         is_cut_.resize(static_cast<size_t>(n_fans));
         label_of_fan_.assign(is_cut_.size(), none);
@@ -66,6 +71,7 @@ private:
     }
 
     std::span<const Index> label_;
+    bool is_apart_ = false;
     std::vector<Index> rank_;          // of each label
     std::vector<Index> label_of_fan_;  // one of those of each
     std::vector<uint8_t> is_cut_;      // fans

@@ -25,7 +25,7 @@ public:
           vertex_(points.point.begin(), points.point.end()),
           n_vertices_(static_cast<size_t>(points.n_points)) {}
 
-    DecodedSplits run() {
+    Splits run() {
         if (coder_.raw(known([&] { return truth_.is_apart(); }), 1) != 0) {
             take_apart();
         } else {
@@ -52,8 +52,19 @@ private:
         else return decltype(ask()){};
     }
 
+    // Without branches: which corners are the first at a point is hard to foresee.
     void take_apart() {
-        for (Index c = 0; c < static_cast<Index>(vertex_.size()); ++c) vertex_[c] = add(points_.point[c]).vertex;
+        std::vector<uint8_t> is_taken(n_vertices_.size());
+        more_.resize(vertex_.size() + 1);
+        Index n = 0;
+        for (size_t c = 0; c < vertex_.size(); ++c) {
+            const Index p = points_.point[c], is_more = is_taken[p];
+            is_taken[p] = true;
+            more_[n] = p;
+            vertex_[c] = is_more ? points_.n_points + n : p;
+            n += is_more;
+        }
+        more_.resize(n);
     }
 
     void fans() {
@@ -265,11 +276,13 @@ FansAtPoints fans_at_points(std::span<const Index> opposite, std::span<const Ind
 EncodedSplits encode_splits(const FannedPoints& points, std::span<const Index> label) {
     RangeEncoder coder;
     SplitTruth truth(points.opposite, points.fan, static_cast<Index>(points.point_of_fan.size()), label);
-    std::vector<Index> vertex = SplitCoder<RangeEncoder>(points, std::move(truth), coder).run().vertex;
-    return {coder.finish(), std::move(vertex)};
+    Splits splits = SplitCoder<RangeEncoder>(points, std::move(truth), coder).run();
+    std::vector<Index> label_of(static_cast<size_t>(points.n_points) + splits.point.size());
+    for (size_t c = 0; c < label.size(); ++c) label_of[splits.vertex[c]] = label[c];
+    return {coder.finish(), std::move(splits), std::move(label_of)};
 }
 
-DecodedSplits decode_splits(std::span<const uint8_t> bytes, const FannedPoints& points) {
+Splits decode_splits(std::span<const uint8_t> bytes, const FannedPoints& points) {
     RangeDecoder coder(bytes);
     return SplitCoder<RangeDecoder>(points, {}, coder).run();
 }

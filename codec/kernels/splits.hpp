@@ -28,19 +28,20 @@ struct FansAtPoints {
 FansAtPoints fans_at_points(std::span<const Index> opposite, std::span<const Index> point);
 
 // One vertex of each point has its number; more are numbered as they are told, from n_points on.
+struct Splits {
+    std::vector<Index> vertex;  // of each corner
+    std::vector<Index> point;   // of each vertex beyond the first n_points
+};
+
 struct EncodedSplits {
     std::vector<uint8_t> bytes;
-    std::vector<Index> vertex;  // of each corner
+    Splits splits;
+    std::vector<Index> label;  // of each vertex
 };
 
 // label: of each corner, equal at the corners of one vertex, which is at one point.
 EncodedSplits encode_splits(const FannedPoints& points, std::span<const Index> label);
 
-struct DecodedSplits {
-    std::vector<Index> vertex;  // of each corner
-    std::vector<Index> point;   // of each vertex beyond the first n_points
-};
-
-DecodedSplits decode_splits(std::span<const uint8_t> bytes, const FannedPoints& points);
+Splits decode_splits(std::span<const uint8_t> bytes, const FannedPoints& points);
 
 }  // namespace ebz

@@ -1,7 +1,8 @@
 #include "weld.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
-#include <numeric>
 
 #include "half_edge_groups.hpp"
 
@@ -16,14 +17,36 @@ public:
     explicit Positions(std::span<const Bits> positions)
         : positions_(positions), slots_(std::bit_ceil(positions.size() / 3 * 2 + 2), none) {}
 
-    Index first(Index v) {
-        for (size_t slot = hash(v) & mask();; slot = (slot + 1) & mask()) {
+    // Of each vertex; empty if no two are at one position.
+    std::vector<Index> first_of_each() {
+        std::vector<Index> first(positions_.size() / 3);
+        std::array<size_t, n_ahead> ahead{};
+        bool any = false;
+        for (size_t v = 0; v < first.size() + n_ahead; ++v) {
+            size_t& slot = ahead[v % n_ahead];
+            if (v >= n_ahead) {
+                const auto behind = static_cast<Index>(v - n_ahead);
+                first[v - n_ahead] = take(behind, slot);
+                any |= first[v - n_ahead] != behind;
+            }
+            if (v >= first.size()) continue;
+            slot = hash(v) & mask();
+            __builtin_prefetch(&slots_[slot]);
+        }
+        if (!any) first.clear();
+        return first;
+    }
+
+private:
+    static constexpr size_t n_ahead = 16;  // slots on their way from memory
+
+    Index take(Index v, size_t slot) {
+        for (;; slot = (slot + 1) & mask()) {
             if (slots_[slot] == none) slots_[slot] = v;
             if (same(slots_[slot], v)) return slots_[slot];
         }
     }
 
-private:
     size_t mask() const { return slots_.size() - 1; }
 
     bool same(Index a, Index b) const {
@@ -31,10 +54,10 @@ private:
         return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
     }
 
-    uint64_t hash(Index v) const {
+    uint64_t hash(size_t v) const {
         uint64_t h = 0;
         for (size_t axis = 0; axis < 3; ++axis) {
-            h = (h ^ static_cast<uint64_t>(positions_[3 * static_cast<size_t>(v) + axis])) * 0x9E3779B97F4A7C15u;
+            h = (h ^ static_cast<uint64_t>(positions_[3 * v + axis])) * 0x9E3779B97F4A7C15u;
             h ^= h >> 32;
         }
         return h;
@@ -44,38 +67,70 @@ private:
     std::vector<Index> slots_;
 };
 
-// The vertices at an edge that is not shared by two faces of agreeing orientation.
+// Of the vertices at one position with others, those at an edge that is not shared by two faces of agreeing
+// orientation.  first: the first vertex at the position of each.
 template <class Faces>
-std::vector<bool> on_seam(const Faces& faces, Index n_vertices) {
-    std::vector<Index> opposite(faces.n_corners(), none);
-    match_regular_edges(faces, n_vertices, std::vector<bool>(faces.n_faces()), opposite);
-    std::vector<bool> seam(n_vertices);
-    for (Index h = 0; h < faces.n_corners(); ++h) {
-        if (opposite[h] == none) seam[faces[h]] = seam[faces[faces.next(h)]] = true;
+class SeamVertices {
+public:
+    SeamVertices(const Faces& faces, std::span<const Index> first)
+        : faces_(faces), is_on_seam_(first.size()), is_asked_(first.size()) {
+        for (size_t v = 0; v < first.size(); ++v) {
+            if (first[v] != static_cast<Index>(v)) is_asked_[v] = is_asked_[first[v]] = true;
+        }
+        // The edges at a single corner are in one face.
+        std::vector<uint8_t> n_corners(first.size());  // 2 for more
+        for (Index c = 0; c < faces.n_corners(); ++c) {
+            if (const Index v = faces[c]; is_asked_[v]) n_corners[v] = n_corners[v] == 0 ? 1 : 2;
+        }
+        bool any = false;
+        for (size_t v = 0; v < first.size(); ++v) {
+            is_on_seam_[v] = n_corners[v] == 1;
+            any |= is_asked_[v] = n_corners[v] == 2;
+        }
+        if (any) find_edges();
     }
-    return seam;
-}
 
-template <class Bits>
-bool any_equal(std::span<const Bits> positions) {
-    Positions<Bits> table(positions);
-    for (Index v = 0; v < static_cast<Index>(positions.size() / 3); ++v) {
-        if (table.first(v) != v) return true;
+    bool operator[](Index v) const { return is_on_seam_[v]; }
+
+private:
+    void find_edges() {
+        std::vector<bool> is_aside(faces_.n_faces());
+        for (Index f = 0; f < faces_.n_faces(); ++f) is_aside[f] = !asks(f);
+        std::vector<Index> opposite(faces_.n_corners(), none);
+        match_regular_edges(faces_, static_cast<Index>(is_asked_.size()), is_aside, opposite);
+        for (Index f = 0; f < faces_.n_faces(); ++f) {
+            if (is_aside[f]) continue;
+            for (Index h = faces_.first(f); h < faces_.first(f) + faces_.size(f); ++h) {
+                if (opposite[h] == none) is_on_seam_[faces_[h]] = is_on_seam_[faces_[faces_.next(h)]] = true;
+            }
+        }
     }
-    return false;
-}
+
+    bool asks(Index f) const {
+        bool any = false;
+        for (Index h = faces_.first(f); h < faces_.first(f) + faces_.size(f); ++h) any |= is_asked_[faces_[h]];
+        return any;
+    }
+
+    const Faces& faces_;
+    std::vector<uint8_t> is_on_seam_, is_asked_;
+};
 
 // The vertices of faces that would lose a corner.
 template <class Faces>
 std::vector<bool> folding(const Faces& faces, std::span<const Index> point) {
     std::vector<bool> folds(point.size());
     std::vector<Index> latest(point.size(), none);  // the first corner at a point, of the latest face there
-    for (Index c = 0; c < faces.n_corners(); ++c) {
-        const Index a = faces[c], at = latest[point[a]];
-        if (at == none || faces.face(at) != faces.face(c)) {
-            latest[point[a]] = c;
-        } else if (faces[at] != a) {
-            folds[a] = folds[faces[at]] = true;
+    for (Index f = 0; f < faces.n_faces(); ++f) {
+        const Index first = faces.first(f), end = first + faces.size(f);
+        bool is_welded = false;
+        for (Index c = first; c < end; ++c) is_welded |= point[faces[c]] != faces[c];
+        if (!is_welded) continue;
+        for (Index c = first; c < end; ++c) {
+            const Index a = faces[c];
+            Index& at = latest[point[a]];
+            if (at < first) at = c;
+            else if (faces[at] != a) folds[a] = folds[faces[at]] = true;
         }
     }
     return folds;
@@ -85,23 +140,27 @@ std::vector<bool> folding(const Faces& faces, std::span<const Index> point) {
 
 template <class Faces, class Bits>
 std::vector<Index> weld(const Faces& faces, std::span<const Bits> positions) {
-    if (!any_equal(positions)) return {};
-    const Index n_vertices = static_cast<Index>(positions.size() / 3);
-    const std::vector<bool> seam = on_seam(faces, n_vertices);
-    std::vector<Index> point(n_vertices);
-    std::iota(point.begin(), point.end(), 0);
-    std::vector<bool> excluded(n_vertices);
+    const std::vector<Index> first = Positions<Bits>(positions).first_of_each();
+    if (first.empty()) return {};
+    const SeamVertices<Faces> seam(faces, first);
+    std::vector<Index> point(first.size());
+    std::vector<bool> excluded(first.size());
     const auto weld_others = [&] {
-        Positions<Bits> table(positions);
+        std::vector<Index> latest(first.size(), none);  // the first to be welded at each position
         bool any = false;
-        for (Index v = 0; v < n_vertices; ++v) {
-            point[v] = seam[v] && !excluded[v] ? table.first(v) : v;
-            any = any || point[v] != v;
+        for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {
+            point[v] = v;
+            if (!seam[v] || excluded[v]) continue;
+            Index& other = latest[first[v]];
+            if (other == none) other = v;
+            point[v] = other;
+            any |= other != v;
         }
         return any;
     };
     if (!weld_others()) return {};
     excluded = folding(faces, point);
+    if (std::find(excluded.begin(), excluded.end(), true) == excluded.end()) return point;
     return weld_others() ? point : std::vector<Index>{};
 }
 

@@ -171,11 +171,12 @@ def labels(point: np.ndarray, rng: np.random.Generator, n_most: int, share: floa
 
 def check_splits(of: tuple, label: np.ndarray) -> None:
     opposite, _, point, _, n_points = of
-    data, vertex = _kernels.encode_splits(*of, label)
+    data, vertex, told, label_of = _kernels.encode_splits(*of, label)
     decoded, more = _kernels.decode_splits(np.frombuffer(data, np.uint8), *of)
     twin = Splits(data, opposite.tolist(), point.tolist())
     assert decoded.tolist() == vertex.tolist() == twin.decode()
-    assert more.tolist() == twin.more
+    assert more.tolist() == told.tolist() == twin.more
+    assert np.array_equal(label_of[vertex], label)
     pairs = np.unique(np.stack([vertex, label]), axis=1)
     assert np.array_equal(pairs[0], np.arange(n_points + len(more)))
     assert len(np.unique(pairs[1])) == pairs.shape[1]

@@ -11,7 +11,7 @@ import ebz
 from ebz.codec import _kernels, points
 from ebz.codec.errors import CorruptError
 from ebz.codec.sample import sphere, torus
-from ebz.codec.welding import Arrangement
+from ebz.codec.welding import Arrangement, Split
 from tests.connectivity_check import same_under
 from tests.meshes import rngs
 
@@ -133,5 +133,6 @@ def test_other_numbers_of_points_are_corrupt():
 
 def test_where_every_vertex_is_used_there_is_no_stream():
     vertices = np.arange(3)
-    arrangement = Arrangement(vertices.astype(np.int32), vertices, vertices, None)
+    whole = Split(vertices.astype(np.int32), 3, np.zeros(0, np.int32), 0)
+    arrangement = Arrangement(whole, vertices, vertices, None)
     assert points.encode(arrangement, np.zeros((3, 3), np.int64)) == (arrangement, None)

@@ -34,18 +34,19 @@ ebz::FannedPoints fanned(const Input<int32_t>& opposite, const Input<int32_t>& f
     return {view(opposite), view(fan), view(point), view(point_of_fan), n_points};
 }
 
-std::tuple<nb::bytes, Array<int32_t>> encode_splits(const Input<int32_t>& opposite, const Input<int32_t>& fan,
-                                                    const Input<int32_t>& point, const Input<int32_t>& point_of_fan,
-                                                    int32_t n_points, const Input<int32_t>& label) {
+std::tuple<nb::bytes, Array<int32_t>, Array<int32_t>, Array<int32_t>> encode_splits(
+    const Input<int32_t>& opposite, const Input<int32_t>& fan, const Input<int32_t>& point,
+    const Input<int32_t>& point_of_fan, int32_t n_points, const Input<int32_t>& label) {
     ebz::EncodedSplits encoded = without_gil(
         [&] { return ebz::encode_splits(fanned(opposite, fan, point, point_of_fan, n_points), view(label)); });
-    return {to_bytes(encoded.bytes), to_numpy(std::move(encoded.vertex))};
+    return {to_bytes(encoded.bytes), to_numpy(std::move(encoded.splits.vertex)),
+            to_numpy(std::move(encoded.splits.point)), to_numpy(std::move(encoded.label))};
 }
 
 std::tuple<Array<int32_t>, Array<int32_t>> decode_splits(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
                                                          const Input<int32_t>& fan, const Input<int32_t>& point,
                                                          const Input<int32_t>& point_of_fan, int32_t n_points) {
-    ebz::DecodedSplits decoded = without_gil(
+    ebz::Splits decoded = without_gil(
         [&] { return ebz::decode_splits(view(bytes), fanned(opposite, fan, point, point_of_fan, n_points)); });
     return {to_numpy(std::move(decoded.vertex)), to_numpy(std::move(decoded.point))};
 }
@@ -85,7 +86,7 @@ void bind_sites(nb::module_& m) {
           "The site of each vertex of the pieces.");
     m.def("glue", &glue, "vertex"_a, "site"_a, "The site of each corner.");
     m.def("encode_splits", &encode_splits, "opposite"_a, "fan"_a, "point"_a, "point_of_fan"_a, "n_points"_a,
-          "label"_a, "Which corners at each point belong to which vertex, and the vertex of each corner.");
+          "label"_a, "Which corners at each point belong to which vertex; what decoding yields; the label of each vertex.");
     m.def("decode_splits", &decode_splits, "data"_a, "opposite"_a, "fan"_a, "point"_a, "point_of_fan"_a, "n_points"_a,
           "The vertex of each corner, and the point of each vertex beyond the first n_points.");
     m.def("fans_at_points", &fans_at_points, "opposite"_a, "point"_a,
