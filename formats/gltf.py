@@ -39,6 +39,7 @@ def _read(document: Any, binary: bytes, format: str, folder: Path | None) -> Mes
         raise MeshError("glTF: the document is no object")
     try:
         _check_compression(document)
+        _check_nodes(document)
         body = joined_buffers(document, binary, folder)
         parts = read_primitives(document, body)
         metadata = {"format": format, DOCUMENT: without_geometry(document, bytes(body))}
@@ -60,6 +61,15 @@ def _check_compression(document: Any) -> None:
             remove_extension(document, name)
 
 
+def _check_nodes(document: Any) -> None:
+    """Raise MeshError where a node shows what is no mesh."""
+    n_meshes = len(document.get("meshes", []))
+    for number, node in enumerate(document.get("nodes", [])):
+        mesh = node.get("mesh", 0)
+        if type(mesh) is not int or not 0 <= mesh < max(n_meshes, "mesh" not in node):
+            raise MeshError(f"glTF: node {number}: there is no mesh {mesh!r}")
+
+
 def write_gltf(content: Mesh | Scene) -> bytes:
     """A glTF file with an embedded buffer; warns of what is left out."""
     document, body = _write(content)
@@ -75,6 +85,15 @@ def write_glb(content: Mesh | Scene) -> bytes:
 
 
 def _write(content: Mesh | Scene) -> tuple[dict[str, Any], bytes]:
+    """The document and its buffer; metadata may come from a file, and are checked like one."""
+    try:
+        _check_nodes(content.metadata.get(DOCUMENT, {}).get("document", {}))
+        return _built(content)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise MeshError(f"metadata 'gltf' is no glTF document: {error!r}") from None
+
+
+def _built(content: Mesh | Scene) -> tuple[dict[str, Any], bytes]:
     parts = content.parts if isinstance(content, Scene) else [content]
     builder = Builder(content.metadata.get(DOCUMENT))
     meshes = builder.document.setdefault("meshes", [])

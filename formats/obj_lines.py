@@ -51,7 +51,8 @@ class Lines:
 
 def read_lines(data: bytes) -> Lines:
     """The lines of a file; raises MeshError where one begins with what is no keyword."""
-    text = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
+    text = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    text += b"\n\n"  # the last line may be continued
     physical = _ends(text)
     if b"\\\n" in text:
         # Of the same length, so that places, and with them line numbers, stay what they are.

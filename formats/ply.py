@@ -17,6 +17,7 @@ What the format leaves open, and what is chosen here:
 - Spaces within header lines are not kept, but for those of comments and obj_info; line ends are.
 """
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -52,8 +53,8 @@ def read_ply(data: bytes) -> Mesh:
     vertices = _vertices(header, columns["vertex"])
     tables = {e.name: read_table(e, columns[e.name], header) for e in header.elements}
     for name, table in tables.items():
-        where = "face {}" if name == "face" else f"element {name!r}: row {{}}"
-        check_indices(table.corners, table.lengths, len(vertices), where.format)
+        place = "face" if name == "face" else f"element {name!r}: row"
+        check_indices(table.corners, table.lengths, len(vertices), partial("{} {}".format, place))
     vertex = tables.pop("vertex")
     face = tables.pop("face", Table(np.zeros(0, np.int64), np.zeros(0, np.int32)))
     return Mesh(

@@ -316,6 +316,8 @@ MALFORMED = [
     (with_accessor(bufferView=None), "glTF: accessor 0: there is no buffer view None"),
     (with_accessor(componentType=9999), "glTF: accessor 0: 'VEC3' of components 9999"),
     (with_accessor(type="VEC5"), "glTF: accessor 0: 'VEC5' of components 5126"),
+    (changed(nodes=[{"mesh": 1}]), "glTF: node 0: there is no mesh 1"),
+    (changed(nodes=[{}, {"mesh": None}]), "glTF: node 1: there is no mesh None"),
     (with_primitive(indices=7), "glTF: there is no accessor 7"),
     (with_accessor(type="VEC2"), "vertices: shape (3, 2) is not (n, 3)"),
     (with_primitive(attributes={}), "glTF: mesh 0: a primitive without positions"),
@@ -517,3 +519,10 @@ def test_lines_of_one_row_come_back_as_one() -> None:
     document.json["meshes"][0]["primitives"][0]["mode"] = 2  # a loop
     mesh = come_back(document.glb())
     assert mesh.elements["line"].offsets.tolist() == [0, 4]
+
+
+@pytest.mark.parametrize("document", [[], {"nodes": [{"mesh": 9}]}, {"nodes": 3}, {"meshes": [1]}])
+def test_metadata_that_is_no_document_is_refused(document) -> None:
+    mesh = Mesh(VERTICES, FACES, metadata={"gltf": {"document": document}})
+    with pytest.raises(MeshError, match=r"no glTF document|no mesh 9"):
+        write_mesh(mesh, "glb")

@@ -251,3 +251,8 @@ def test_every_prefix_and_a_flipped_bit_of_every_byte_is_an_error_or_comes_back(
             assert again.metadata == mesh.metadata
             n_read += 1
     assert 0 < n_read < len(damaged)
+
+
+@pytest.mark.parametrize("end", [b"", b"\n", b"\\", b"\\\n", b" \\\r\n", b"# \\"])
+def test_the_last_line_is_read_however_it_ends(end: bytes) -> None:
+    assert len(read_mesh(b"v 0 0 0\nv 1 2 3" + end, format="obj").vertices) == 2

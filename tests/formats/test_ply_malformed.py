@@ -76,6 +76,10 @@ MALFORMED = [
         edited("element face 1", "element tristrips 0\nproperty list int int a\nelement face 1"),
         "element 'tristrips': strips beside faces are not read",
     ),
+    (
+        edited("face 1", "{}face{1} 1").replace(b"0 1 1", b"0 1 7"),
+        "element '{}face{1}': row 0 refers to vertex 7, but there are 2",
+    ),
     (edited("0 1 2\n", "0 1\n"), "element 'vertex': row 0: property 'z': early end of line"),
     (edited("3 4 5\n", "3 4 5 6\n"), "element 'vertex': row 1: expected end of line, found '6'"),
     (edited("3 4 5\n", "3 4 x\n"), "element 'vertex': row 1: property 'z': 'x' is no number"),
