@@ -84,8 +84,8 @@ class Decoder:
                 self.values.gather(point, axis, twin, at, axes[:turn])
                 e = self.values.decode(axis)
             if e is None:
-                e = self.symbols.decode(point, axis)
-            self.residual[to.site][d] = point.signed(e)
+                e = point.signed(self.symbols.decode(point, axis))
+            self.residual[to.site][d] = e
             at[d] = point.signed(axis.base + e)
             if recalls:
                 self.values.learn(axis, e, at[d])
@@ -163,13 +163,12 @@ def keys(point: Point, axis: Axis) -> list[tuple[int, ...]]:
     d, cell = axis.d, F(2.0**-axis.shift)
     apart = (point.float(u[d] - axis.base) for u in point.kept_neighbours)
     near = int(within(min(apart, key=abs) * cell, -7, 7) + F(7.5))
-    tip = point.kept_tips[min(1, point.n_tips - 1)]
     fraction = (point.expected[d] - F(axis.offset)) * (cell * F(2 if axis.is_plain else 4))
     return [
         (1, d, near, fifteenths(fraction)),
         (2, axis.turn, axis.wide, point.few),
         (3, d, axis.level, axis.wide),
-        (4, axis.turn, axis.level, fifteenths(point.float(tip[d] - axis.base) * cell)),
+        (4, axis.turn, axis.level, fifteenths(point.float(point.second[d] - axis.base) * cell)),
     ]
 
 

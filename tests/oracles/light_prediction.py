@@ -74,10 +74,9 @@ class Point:
         self.first = tips[0]
         self.n_tips, self.n_neighbours = len(tips), len(around.neighbours)
         self.kept_neighbours = kept([at[u] for u in around.neighbours])
-        self.kept_tips = kept(tips)
+        self.second = tips[min(1, len(tips) - 1)]
         self.near, self.drift, self.size = zeros(), zeros(), zeros()
         self.tips, self.spread, self.ahead, self.normal = zeros(), zeros(), zeros(), zeros()
-        self.exact = [0, 0, 0]
         for u in around.neighbours:
             self._add_neighbour(at[u], residual[u])
         for i, tip in enumerate(tips):
@@ -103,7 +102,6 @@ class Point:
             self.near[d] += self.float(at[d] - self.first[d])
             self.drift[d] += self.float(residual[d])
             self.size[d] += abs(self.float(residual[d]))
-            self.exact[d] += residual[d] == 0
 
     def _add_tip(self, tip: Sequence[int], before: Sequence[int]) -> None:
         for d in range(3):

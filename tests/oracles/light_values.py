@@ -71,7 +71,6 @@ class Values:
     ) -> None:
         """known: the axes of the turns before, on which `at` is."""
         d = axis.d
-        exact = min(3, point.exact[d])
 
         def agreement(other: Sequence[int]) -> int:
             return sum(other[i] == at[i] for i in known)
@@ -82,19 +81,16 @@ class Values:
 
         self.values, self.keys = [], None
         if twin is not None:
-            self._add(signed(twin.at[d] - axis.base, 64), 0, axis, level(twin.at), twin.strength)
+            self._add(point.signed(twin.at[d] - axis.base), 0, axis, level(twin.at), twin.strength)
             if twin.strength == 3 and agreement(twin.at) == len(known):
                 return
-        if axis.shift > 0:
-            self._add(0, 1 if axis.is_plain else 2, axis, 0, exact)
         near = min(
-            point.kept_neighbours,
+            point.kept_neighbours[:2],
             key=lambda u: (-agreement(u), abs(point.signed(u[d] - axis.base))),
         )
-        self._add(point.signed(near[d] - axis.base), 3, axis, level(near), exact)
+        self._add(point.signed(near[d] - axis.base), 1, axis, level(near))
         if point.n_tips > 1:
-            tip = max(point.kept_tips, key=agreement)
-            self._add(point.signed(tip[d] - axis.base), 4, axis, level(tip), exact)
+            self._add(point.signed(point.second[d] - axis.base), 2, axis, level(point.second))
         self._recall(point, axis, [at[i] for i in known])
 
     def _recall(self, point: Point, axis: Axis, before: Sequence[int]) -> None:
@@ -104,17 +100,17 @@ class Values:
         recalled, mirror = self.by_axes.find(self.keys[0]), self.mirrors[d]
         if recalled is not None:
             coordinate, hits = recalled
-            self._add(from_base(coordinate, axis.base), 5, axis, min(hits - 1, 3), 0)
+            self._add(from_base(coordinate, axis.base), 3, axis, min(hits - 1, 3))
             if mirror.hits:
                 e = from_base(mirror.sum - coordinate, axis.base)
-                self._add(e, 6, axis, min(mirror.hits - 1, 3), 0)
+                self._add(e, 5, axis, min(mirror.hits - 1, 3))
         beside = self.by_place.find(self.keys[1])
         if beside is not None:
-            self._add(from_base(beside[0], axis.base), 7, axis, min(beside[1] - 1, 3), 0)
+            self._add(from_base(beside[0], axis.base), 4, axis, min(beside[1] - 1, 3))
 
-    def _add(self, e: int, kind: int, axis: Axis, agreement: int, exact: int) -> None:
+    def _add(self, e: int, kind: int, axis: Axis, agreement: int, strength: int = 0) -> None:
         if all(value.e != e for value in self.values):
-            self.values.append(Value(e, (kind, axis.turn, agreement, exact)))
+            self.values.append(Value(e, (kind, axis.turn, agreement, strength)))
 
 
 def hashed(k: int, x: int, y: int) -> int:

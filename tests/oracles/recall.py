@@ -8,20 +8,20 @@ WORD = 2**32
 class Table:
     """Of 2^b entries: coordinates modulo 2^32, or numbers of vertices."""
 
-    def __init__(self, b: int) -> None:
-        self.b = b
+    def __init__(self, b: int, n_key_bits: int = 28) -> None:
+        self.b, self.n_keys = b, 2**n_key_bits
         self.entries: dict[int, tuple[int, int, int]] = {}
 
     def find(self, key: int) -> tuple[int, int] | None:
         """A coordinate and its hits."""
         same, coordinate, hits = self.entries.get(key >> (32 - self.b), (-1, 0, 0))
-        return (coordinate, hits) if same == key % 2**28 else None
+        return (coordinate, hits) if same == key % self.n_keys else None
 
     def learn(self, key: int, coordinate: int) -> None:
         coordinate %= WORD
         found = self.find(key)
         hits = min(found[1] + 1, 15) if found and found[0] == coordinate else 1
-        self.entries[key >> (32 - self.b)] = key % 2**28, coordinate, hits
+        self.entries[key >> (32 - self.b)] = key % self.n_keys, coordinate, hits
 
 
 class Mirror:

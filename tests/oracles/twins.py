@@ -28,8 +28,8 @@ class Twins:
         self.corner: dict[int, int] = {}
         self.run = 0
         self.same, self.recent = [16384] * 4, 0
-        b = table_bits(len(at), 2, 18)
-        self.shapes, self.places = Table(b), Table(b)
+        b, n_key_bits = table_bits(len(at), 1, 18), 32 - len(at).bit_length()
+        self.shapes, self.places = Table(b, n_key_bits), Table(b, n_key_bits)
         self.pending: tuple[int, int, int] | None = None
 
     def find(self, gates: Sequence[int]) -> Twin | None:
@@ -86,16 +86,13 @@ class Twins:
         a, b = self.gates.ends(gate)
         beyond = self.gates.beyond(gate)
         of_a, of_b = self.of.get(a), self.of.get(b)
-        if of_a is None or of_b is None or of_a not in self.corner:
+        if of_a is None or of_b is None:
             return None
         of_beyond = None if beyond is None else self.of.get(beyond)
-        same = flipped = None
-        for c in self._corners(self.corner[of_a]):
-            after, before = self.gates.vertex[following(c)], self.gates.vertex[previous(c)]
-            if after == of_b:
-                same = before
-            if before == of_b:
-                flipped = after
+        if (of_a, of_b) == (a, b):
+            same, flipped = of_beyond, beyond
+        else:
+            same, flipped = self._third(of_a, of_b)
         is_flipped = flipped is not None and flipped != of_beyond
         twin = flipped if is_flipped else same if same != of_beyond else None
         if twin is None or not self.gates.known[twin]:
@@ -103,6 +100,17 @@ class Twins:
         strength = 0 if (of_a, of_b) == (a, b) else 1 + min(2, self.run)
         at = [self._coordinate(d, (a, b), (of_a, of_b), twin, is_flipped) for d in range(3)]
         return Twin(twin, strength, at)
+
+    def _third(self, a: int, b: int) -> tuple[int | None, int | None]:
+        """The third corners of the faces from a to b and from b to a."""
+        same = flipped = None
+        for c in self._corners(self.corner[a]) if a in self.corner else ():
+            after, before = self.gates.vertex[following(c)], self.gates.vertex[previous(c)]
+            if after == b:
+                same = before
+            if before == b:
+                flipped = after
+        return same, flipped
 
     def _corners(self, first: int) -> Iterator[int]:
         opposite = self.gates.opposite

@@ -88,8 +88,7 @@ private:
         for (size_t turn = 0; turn < 3; ++turn) {
             if (turn == 2 && predictor_.slide(position)) predictor_.expect(x_);
             const size_t d = axes[turn];
-            const int64_t e = code_axis(turn, d, int64_t{static_cast<Signed>(wanted[d] - x_.base[d])});
-            residuals[d] = static_cast<Unsigned>(e);
+            residuals[d] = static_cast<Unsigned>(code_axis(turn, d, static_cast<Signed>(wanted[d] - x_.base[d])));
             position[d] = x_.base[d] + residuals[d];
         }
         predictor_.learn(position);
@@ -97,11 +96,15 @@ private:
         surveyor_.settle(from.vertex, position, as_floats(residuals));
     }
 
-    int64_t code_axis(size_t turn, size_t d, int64_t e) {
-        const bool told = recalls_ && recalls_->code(coder_.symbols, d, x_, e);
-        if (!told) e = model_.code(coder_, d, contexts(turn, d), 5 * turn + std::min<size_t>(s_.n_tips, 4), x_.shift[d], e);
-        if (recalls_) recalls_->reveal(d, e, x_.base[d] + static_cast<Unsigned>(e));
+    Signed code_axis(size_t turn, size_t d, Signed e) {
+        if (!recalls_) return code_symbol(turn, d, e);
+        if (!recalls_->code(coder_.symbols, d, x_, e)) e = code_symbol(turn, d, e);
+        recalls_->reveal(d, e, x_.base[d] + static_cast<Unsigned>(e));
         return e;
+    }
+
+    Signed code_symbol(size_t turn, size_t d, Signed e) {
+        return static_cast<Signed>(model_.code(coder_, d, contexts(turn, d), 5 * turn + std::min<size_t>(s_.n_tips, 4), x_.shift[d], int64_t{e}));
     }
 
     LightModel::Contexts contexts(size_t turn, size_t d) const {

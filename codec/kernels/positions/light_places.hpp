@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "light_values.hpp"
+#include "int_lanes.hpp"
 #include "recall.hpp"
 
 namespace ebz::positions {
@@ -19,33 +19,41 @@ public:
     explicit LightPlaces(size_t n_vertices)
         : along_(log2_entries(n_vertices)), around_(log2_entries(n_vertices)) {}
 
-    // What will be asked for first, of a vertex with such neighbours.
-    void prefetch(size_t d, std::array<uint32_t, 2> neighbours, bool is_first) const {
-        around_.prefetch(key(d + 4, neighbours));
-        if (is_first) along_.prefetch(key(d, {neighbours[0], 0}));
+    // Of a vertex; a, b: two neighbours.  first: the axis that is asked for first.
+    void start(UintLanes a, UintLanes b, size_t first) {
+        const UintLanes kinds = {0, 1, 2, 0};
+        const auto keys = [&](UintLanes kind, UintLanes x, UintLanes y) { return std::bit_cast<Keys>(key(kind, x, y)); };
+        around_keys_ = keys(kinds + 4, a, b);
+        first_keys_ = keys(kinds, a, UintLanes{});
+        for (size_t d = 0; d < 3; ++d) around_.prefetch(around_keys_[d]);
+        along_.prefetch(first_keys_[first]);
     }
 
-    // Adds what is recalled for axis d, in this turn.  known: the coordinates before, from a neighbour in the first turn.
-    void add_to(LightValues& values, size_t d, size_t turn, std::array<uint32_t, 2> known, std::array<uint32_t, 2> neighbours, uint32_t base) {
-        along_key_ = key(d, known);
-        around_key_ = key(d + 4, neighbours);
-        const auto add = [&](LightValues::Kind kind, uint32_t hits, uint32_t value) {
-            values.add(kind, turn, std::min<size_t>(hits - 1, 3), 0, int64_t{static_cast<int32_t>(value - base)});
+    // Adds what is recalled for axis d, in this turn.  known: the coordinates of the turns before.
+    template <class Values>
+    void add_to(Values& values, size_t d, size_t turn, std::array<uint32_t, 2> known, uint32_t base) {
+        d_ = d;
+        along_key_ = turn == 0 ? first_keys_[d] : key(static_cast<uint32_t>(d), known[0], turn == 1 ? 0 : known[1]);
+        found_along_ = &along_.at(along_key_);
+        found_around_ = &around_.at(around_keys_[d]);
+        const auto add = [&](typename Values::Kind kind, uint32_t hits, uint32_t value) {
+            values.add(kind, turn, std::min<size_t>(hits - 1, 3), static_cast<int32_t>(value - base));
         };
-        found_ = along_.find(along_key_);
-        if (found_ != nullptr) {
+        knows_along_ = found_along_->is_of(along_key_);
+        if (knows_along_) {
             const Mirror& mirror = mirrors_[d];
-            add(LightValues::along, found_->hits(), found_->value);
-            if (mirror.hits > 0) add(LightValues::mirrored, mirror.hits, mirror.sum - found_->value);
+            add(Values::along, found_along_->hits(), found_along_->value);
+            if (mirror.hits > 0) add(Values::mirrored, mirror.hits, mirror.sum - found_along_->value);
         }
-        const Coordinates::Entry* around = around_.find(around_key_);
-        if (around != nullptr) add(LightValues::around, around->hits(), around->value);
+        knows_around_ = found_around_->is_of(around_keys_[d]);
+        if (knows_around_) add(Values::around, found_around_->hits(), found_around_->value);
     }
 
-    void learn(size_t d, uint32_t value) {
-        if (found_ != nullptr && found_->value != value) mirrors_[d].learn(found_->value + value);
-        along_.learn(along_key_, value);
-        around_.learn(around_key_, value);
+    // After values have been added.
+    void learn(uint32_t value) {
+        if (knows_along_ && found_along_->value != value) mirrors_[d_].learn(found_along_->value + value);
+        found_along_->learn(along_key_, knows_along_, value);
+        found_around_->learn(around_keys_[d_], knows_around_, value);
     }
 
 private:
@@ -64,19 +72,29 @@ private:
 
     static int log2_entries(size_t n_vertices) { return std::clamp(static_cast<int>(std::bit_width(n_vertices)) + 1, 8, 15); }
 
-    static uint32_t key(size_t kind, std::array<uint32_t, 2> coordinates) {
-        uint32_t h = static_cast<uint32_t>(kind) * 0x9E3779B1u;
-        for (const uint32_t x : coordinates) {
-            h = (h ^ x) * 0x85EBCA6Bu;
+    // For integers, or for lanes of them.
+    template <class T>
+    static T key(T kind, T x, T y) {
+        T h = kind * 0x9E3779B1u;
+        for (const T z : {x, y}) {
+            h = (h ^ z) * 0x85EBCA6Bu;
             h ^= h >> 15;
         }
         return h * 0xC2B2AE35u;
     }
 
-    Coordinates along_, around_;  // the axes before, the neighbours
-    uint32_t along_key_ = 0, around_key_ = 0;
-    const Coordinates::Entry* found_ = nullptr;  // by `along`
-    std::array<Mirror, 3> mirrors_;         // by axis
+    Coordinates along_, around_;   // the axes before, the neighbours
+    std::array<Mirror, 3> mirrors_;  // by axis
+
+    // Of the vertex under way, per axis.
+    using Keys = std::array<uint32_t, 4>;
+    Keys first_keys_{}, around_keys_{};
+
+    // Of the axis under way.
+    size_t d_ = 0;
+    uint32_t along_key_ = 0;
+    Coordinates::Entry *found_along_ = nullptr, *found_around_ = nullptr;
+    bool knows_along_ = false, knows_around_ = false;
 };
 
 }  // namespace EBZ_INSTRUCTIONS

@@ -73,10 +73,9 @@ public:
         x.base = s_->first + widened(off);
         const Lanes at = __builtin_convertvector(off, Lanes);
         const Lanes fine = cells_ * choose(is_plain, splat<Lanes>(2.0f), splat<Lanes>(4.0f));
-        const Position second = s_->tip_at[s_->n_tips > 1 ? 1 : 0];
         x.near = ints(truncated(clamp(nearest(x.base) * cells_, -7.0f, 7.0f) + 7.5f));
         x.fraction = ints(fifteenths((expected_ - at) * fine));
-        x.tip = ints(fifteenths(as_floats(second - x.base) * cells_));
+        x.tip = ints(fifteenths(as_floats(s_->second - x.base) * cells_));
         x.level = ints(level_);
         x.spread = ints(spread_);
         x.shift = ints(shift_);

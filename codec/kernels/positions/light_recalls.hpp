@@ -1,4 +1,4 @@
-// What coordinates may repeat: those of a twin, of neighbours and tips, what was expected, those of other places.
+// What coordinates may repeat: those of a twin, of neighbours, of a tip, of other places.
 #pragma once
 
 #include <algorithm>
@@ -47,9 +47,9 @@ public:
     void start(const Surroundings& s) {
         s_ = &s;
         neighbour_agrees_ = {};
-        tip_agrees_ = {};
+        tip_agrees_ = 0;
         n_known_ = 0;
-        for (size_t d = 0; d < 3; ++d) places_.prefetch(d, origins(d), d == first_);
+        places_.start(low(s.neighbour_at[0]), low(s.neighbour_at[1]), first_);
     }
 
     // For twins.
@@ -58,20 +58,19 @@ public:
 
     // True if the residual e of axis d has been coded as one of a value.
     template <class Coder>
-    bool code(Coder& coder, size_t d, const Expectation& x, int64_t& e) {
+    bool code(Coder& coder, size_t d, const Expectation& x, Signed& e) {
         find(d, x);
         return values_.code(coder, d, x.level[d] + 2 * x.shift[d], e);
     }
 
-    void reveal(size_t d, int64_t e, Unsigned coordinate) {
-        const auto value = int64_t{static_cast<Signed>(coordinate)};
+    void reveal(size_t d, Signed e, Unsigned coordinate) {
         values_.learn(e);
-        if (!is_told_) places_.learn(d, static_cast<uint32_t>(coordinate));
-        twins_.reveal(d, value);
+        if (!is_told_) places_.learn(static_cast<uint32_t>(coordinate));
+        twins_.reveal(d, int64_t{static_cast<Signed>(coordinate)});
         if (n_known_ == known_.size()) return;
         known_[n_known_++] = static_cast<uint32_t>(coordinate);
-        for (size_t i = 0; i < s_->n_kept_neighbours(); ++i) neighbour_agrees_[i] += s_->neighbour_at[i][d] == coordinate ? 1 : 0;
-        for (size_t i = 0; i < s_->n_kept_tips(); ++i) tip_agrees_[i] += s_->tip_at[i][d] == coordinate ? 1 : 0;
+        for (size_t i = 0; i < neighbour_agrees_.size(); ++i) neighbour_agrees_[i] += s_->neighbour_at[i][d] == coordinate ? 1 : 0;
+        tip_agrees_ += s_->second[d] == coordinate ? 1 : 0;
     }
 
     void learn(const PredictedVertex& from, Position position) {
@@ -79,45 +78,33 @@ public:
     }
 
 private:
-    using Agreements = std::array<uint8_t, Surroundings::max_neighbours>;  // axes that agree with the position
-    static_assert(Surroundings::max_tips == Surroundings::max_neighbours);
+    using Values = LightValues<Signed>;
 
     static Twins::Position as_integers(Position x) { return {static_cast<Signed>(x[0]), static_cast<Signed>(x[1]), static_cast<Signed>(x[2])}; }
 
     void find(size_t d, const Expectation& x) {
-        const size_t turn = n_known_, exact = static_cast<size_t>(std::min(-s_->exact[d], 3));
-        const auto value = [d](const auto& position) { return int64_t{static_cast<Signed>(position[d])}; };
-        const auto residual = [&](const auto& position) { return int64_t{static_cast<Signed>(position[d] - x.base[d])}; };
+        const size_t turn = n_known_;
+        const auto residual = [&](Unsigned coordinate) { return static_cast<Signed>(coordinate - x.base[d]); };
         values_.clear();
         if (twins_.exists())
-            values_.add(LightValues::twin, turn, agreement(twins_.n_agree()), twins_.strength(), wrapping_difference(twins_.value(d), value(x.base)));
+            values_.add(Values::twin, turn, agreement(twins_.n_agree()), residual(static_cast<Unsigned>(twins_.value(d))), twins_.strength());
         is_told_ = twins_.is_strong() && twins_.n_agree() == turn;
         if (is_told_) return;
-        if (x.shift[d] > 0) values_.add(x.plain[d] ? LightValues::plain_base : LightValues::expected_base, turn, 0, exact, 0);
-        int64_t best = residual(s_->neighbour_at[0]);
-        size_t most = neighbour_agrees_[0];
-        for (size_t i = 1; i < s_->n_kept_neighbours(); ++i) {
-            const int64_t other = residual(s_->neighbour_at[i]);
-            const size_t agrees = neighbour_agrees_[i];
-            if (agrees < most || (agrees == most && magnitude(other) >= magnitude(best))) continue;
-            most = agrees;
-            best = other;
-        }
-        values_.add(LightValues::neighbour, turn, agreement(most), exact, best);
-        if (s_->n_tips > 1) {
-            const size_t tip = first_largest(s_->n_kept_tips());
-            values_.add(LightValues::tip, turn, agreement(tip_agrees_[tip]), exact, residual(s_->tip_at[tip]));
-        }
-        const std::array<uint32_t, 2> known = {turn > 0 ? known_[0] : origins(d)[0], turn > 1 ? known_[1] : 0};
-        places_.add_to(values_, d, turn, known, origins(d), static_cast<uint32_t>(x.base[d]));
+        const size_t which = nearest(residual(s_->neighbour_at[0][d]), residual(s_->neighbour_at[1][d]));
+        values_.add(Values::neighbour, turn, agreement(neighbour_agrees_[which]), residual(s_->neighbour_at[which][d]));
+        if (s_->n_tips > 1) values_.add(Values::tip, turn, agreement(tip_agrees_), residual(s_->second[d]));
+        places_.add_to(values_, d, turn, known_, static_cast<uint32_t>(x.base[d]));
     }
 
-    std::array<uint32_t, 2> origins(size_t d) const {
-        return {static_cast<uint32_t>(s_->neighbour_at[0][d]), static_cast<uint32_t>(s_->neighbour_at[1][d])};
+    // Of the first two neighbours the one that agrees more, else the nearer one, else the first.
+    size_t nearest(Signed first, Signed second) const {
+        if (neighbour_agrees_[0] != neighbour_agrees_[1]) return neighbour_agrees_[1] > neighbour_agrees_[0] ? 1 : 0;
+        return magnitude(int64_t{second}) < magnitude(int64_t{first}) ? 1 : 0;
     }
 
-    size_t first_largest(size_t n_tips) const {
-        return static_cast<size_t>(std::max_element(tip_agrees_.begin(), tip_agrees_.begin() + static_cast<std::ptrdiff_t>(n_tips)) - tip_agrees_.begin());
+    static UintLanes low(Position x) {
+        if constexpr (sizeof(Unsigned) == sizeof(uint32_t)) return x;
+        else return __builtin_convertvector(x, UintLanes);
     }
 
     // 0 at first, then 1, 2, 3 for none, some and all of the axes before.
@@ -126,10 +113,11 @@ private:
     const LightSurveyor<Unsigned>& sites_;
     size_t first_;  // axis
     const Surroundings* s_ = nullptr;
-    LightValues values_;
+    Values values_;
     LightPlaces places_;
     Twins twins_;
-    Agreements neighbour_agrees_{}, tip_agrees_{};
+    std::array<uint8_t, 2> neighbour_agrees_{};  // axes on which the first two agree with the position
+    size_t tip_agrees_ = 0;                      // the same of the second tip
     std::array<uint32_t, 2> known_{};  // coordinates of the vertex
     size_t n_known_ = 0;
     bool is_told_ = false;  // by a twin, without further values

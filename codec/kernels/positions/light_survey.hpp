@@ -20,22 +20,20 @@ inline namespace EBZ_INSTRUCTIONS {
 template <class Unsigned>
 struct LightSurroundings {
     using Position = typename Integers<Unsigned>::Lanes;
-    static constexpr size_t max_neighbours = 8, max_tips = 8;
+    static constexpr size_t max_neighbours = 8;
 
     Position first;           // the first tip, which the sums of positions are relative to
+    Position second, latest;  // further tips, the first one if there is no other
     Lanes tips, neighbours;
     Lanes spread;             // from tip to tip
     Lanes ahead, normal;      // of the faces that predict
     Lanes drift, size;        // of the residuals, and of their magnitudes
-    IntLanes exact;           // less one for each residual of 0
     std::array<Position, max_neighbours> neighbour_at;
-    std::array<Position, max_tips> tip_at;
     size_t n_neighbours, n_tips;
 
-    LightSurroundings() : neighbour_at{}, tip_at{} {}  // GCC fails on an implicit one without optimisation
+    LightSurroundings() : neighbour_at{} {}  // GCC fails on an implicit one without optimisation
 
     size_t n_kept_neighbours() const { return std::min(n_neighbours, max_neighbours); }
-    size_t n_kept_tips() const { return std::min(n_tips, max_tips); }
 };
 
 template <class Unsigned>
@@ -63,9 +61,8 @@ public:
 
     // Both gates, and from the first one around the vertex as far as vertices are known.
     void survey(const PredictedVertex& from, Surroundings& s) const {
-        s.first = at(from.a) + at(from.b) - at(from.o);
+        s.first = s.second = s.latest = at(from.a) + at(from.b) - at(from.o);
         s.tips = s.neighbours = s.spread = s.ahead = s.normal = s.drift = s.size = Lanes{};
-        s.exact = IntLanes{};
         s.n_neighbours = s.n_tips = 0;
         add_neighbour(s, from.a);
         add_neighbour(s, from.b);
@@ -108,18 +105,18 @@ private:
         s.neighbours += as_floats(position - s.first);
         s.drift += r;
         s.size += magnitudes(r);
-        s.exact += r == 0.0f;
         s.neighbour_at[s.n_neighbours++ % s.max_neighbours] = position;
     }
 
     void add_tip(Surroundings& s, int32_t a, int32_t b, int32_t o) const {
         constexpr float scale = 0x1p-20f;  // so that fourth powers are within floats
         const Position origin = at(o), u = at(a) - origin, w = at(b) - origin, tip = origin + u + w;
-        if (s.n_tips > 0) s.spread += magnitudes(as_floats(tip - s.tip_at[(s.n_tips - 1) % s.max_tips]));
+        s.spread += magnitudes(as_floats(tip - s.latest));
         s.tips += as_floats(tip - s.first);
         s.ahead += as_floats(u + w);
         s.normal += cross(as_floats(u) * scale, as_floats(w) * scale);
-        s.tip_at[s.n_tips++ % s.max_tips] = tip;
+        s.latest = tip;
+        if (++s.n_tips == 2) s.second = tip;
     }
 
     const int32_t *opposite_, *vertex_;

@@ -19,6 +19,13 @@ public:
         Value value = 0;
 
         uint32_t hits() const { return key_and_hits & max_hits; }
+        bool is_of(uint32_t key) const { return hits() != 0 && (key_and_hits ^ key << 4) <= max_hits; }
+
+        // is_known: what is_of tells.
+        void learn(uint32_t key, bool is_known, Value latest) {
+            const bool again = is_known && value == latest;
+            *this = {key << 4 | (again ? std::min(hits() + 1, max_hits) : 1), latest};
+        }
     };
 
     // log2_entries >= 4: then the place tells the rest of the key.
@@ -26,16 +33,18 @@ public:
 
     void prefetch(uint32_t key) const { __builtin_prefetch(&entries_[key >> shift_], 1); }
 
+    // Where these circumstances belong; others may be there.
+    Entry& at(uint32_t key) { return entries_[key >> shift_]; }
+
     // Null if these circumstances are new.
     const Entry* find(uint32_t key) const {
         const Entry& e = entries_[key >> shift_];
-        return e.hits() != 0 && (e.key_and_hits ^ key << 4) <= max_hits ? &e : nullptr;
+        return e.is_of(key) ? &e : nullptr;
     }
 
     void learn(uint32_t key, Value value) {
-        Entry& e = entries_[key >> shift_];
-        const bool again = find(key) != nullptr && e.value == value;
-        e = {key << 4 | (again ? std::min(e.hits() + 1, max_hits) : 1), value};
+        Entry& e = at(key);
+        e.learn(key, e.is_of(key), value);
     }
 
 private:

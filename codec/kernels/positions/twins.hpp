@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "recall.hpp"
 #include "surface.hpp"
+#include "vertex_recall.hpp"
 #include "wrapping.hpp"
 
 namespace ebz::positions {
@@ -31,7 +31,7 @@ public:
     Twins(const Surface& mesh, size_t last)
         : opposite_(mesh.opposite.data()), vertex_(mesh.vertex.data()), last_(last),
           twin_(static_cast<size_t>(mesh.n_vertices), -1), corner_(twin_.size(), -1),
-          places_(log2_entries(twin_.size())), shapes_(log2_entries(twin_.size())) {}
+          places_(twin_.size(), log2_entries(twin_.size())), shapes_(twin_.size(), log2_entries(twin_.size())) {}
 
     // sites.known(u), sites.at(u): whether a vertex is known, and where it is then.
     template <class Sites>
@@ -109,9 +109,9 @@ private:
 
     // Without a twin that was right or is recalled a vertex is its own, as on a plane of symmetry.
     void pair(const Unpaired& u) {
-        const Recall<int32_t>::Entry *alike = shapes_.find(u.shape), *aligned = places_.find(u.place);
+        const int32_t alike = shapes_.find(u.shape), aligned = places_.find(u.place);
         int32_t& twin = twin_[static_cast<size_t>(u.vertex)];
-        if (twin < 0) twin = alike != nullptr ? alike->value : aligned != nullptr ? aligned->value : u.vertex;
+        if (twin < 0) twin = alike >= 0 ? alike : aligned >= 0 ? aligned : u.vertex;
         shapes_.learn(u.shape, u.vertex);
         places_.learn(u.place, u.vertex);
     }
@@ -121,7 +121,9 @@ private:
     // Both faces at the edge between the twins; not the one beyond which the twin of o is.
     Counterpart across(const Gate& gate) const {
         const int32_t a = of(gate.a), b = of(gate.b), o = of(gate.o);
-        if (a < 0 || b < 0 || corner_[static_cast<size_t>(a)] < 0) return {-1, false};
+        if (a < 0 || b < 0) return {-1, false};
+        if (a == gate.a && b == gate.b) return {o != gate.o ? gate.o : -1, true};
+        if (corner_[static_cast<size_t>(a)] < 0) return {-1, false};
         int32_t same = -1, flipped = -1;
         const auto look = [&](int32_t c) {
             const int32_t after = vertex_[next(c)], before = vertex_[previous(c)];
@@ -175,12 +177,12 @@ private:
         return (h ^ h >> 15) * 0xC2B2AE35u;
     }
 
-    static int log2_entries(size_t n) { return std::clamp(static_cast<int>(std::bit_width(n)) + 2, 8, 18); }
+    static int log2_entries(size_t n) { return std::clamp(static_cast<int>(std::bit_width(n)) + 1, 8, 18); }
 
     const int32_t *opposite_, *vertex_;
     size_t last_;
     std::vector<int32_t> twin_, corner_;
-    Recall<int32_t> places_, shapes_;
+    VertexRecall places_, shapes_;
     Unpaired latest_{-1, 0, 0};
     std::array<uint16_t, 4> same_ = {16384, 16384, 16384, 16384};  // of 2^15, by the latest two answers
     size_t recent_ = 0;
