@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tests.oracles.floats import signed
 from tests.oracles.light_prediction import Point
 from tests.oracles.recall import WORD, Mirror, Table, from_base, table_bits
 from tests.oracles.streams import Streams
