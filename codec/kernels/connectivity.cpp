@@ -12,26 +12,26 @@ namespace {
 void reorder(const Pieces& pieces, std::span<const Index> faces, EncodedConnectivity& encoded) {
     const std::vector<Index>& gates = encoded.word.gates;
     auto& [opposite, fans] = encoded.connectivity;
-    std::vector<Index> source(pieces.opposite.size()), output_of(source.size()), number(pieces.fans.n_vertices, none);
-    fans.vertex.resize(source.size());
+    std::vector<Index> output_of(gates.size()), number(pieces.fans.n_vertices, none);
+    for (size_t t = 0; t < gates.size(); ++t) output_of[gates[t] / 3] = static_cast<Index>(t);
+    fans.vertex.resize(pieces.opposite.size());
+    opposite.resize(pieces.opposite.size());
     encoded.source_vertex.reserve(number.size());
     for (Index t = 0; t < static_cast<Index>(gates.size()); ++t) {
         Index h = gates[t];
         for (Index c = 3 * t; c < 3 * t + 3; ++c, h = next(h)) {
-            source[c] = h;
-            output_of[h] = c;
             Index& vertex = number[pieces.fans.vertex[h]];
             if (vertex == none) {
                 vertex = fans.n_vertices++;
                 encoded.source_vertex.push_back(faces[h]);
             }
             fans.vertex[c] = vertex;
+            opposite[c] = none;
+            if (const Index across = pieces.opposite[h]; across != none) {
+                const Index there = output_of[across / 3], turned = across - gates[there];
+                opposite[c] = 3 * there + turned + (turned < 0 ? 3 : 0);
+            }
         }
-    }
-    opposite.resize(source.size());
-    for (size_t c = 0; c < source.size(); ++c) {
-        const Index across = pieces.opposite[source[c]];
-        opposite[c] = across == none ? none : output_of[across];
     }
 }
 

@@ -37,6 +37,7 @@ Fans number_fans(std::span<const Index> opposite, const Faces& faces) {
     for (Index c = 0; c < static_cast<Index>(opposite.size()); ++c) {
         if (fans.vertex[c] != none) continue;
         const Index vertex = fans.n_vertices++;
+        fans.first.push_back(c);
         if (turn_to_boundary(opposite, faces, fans.vertex, c, vertex)) {
             turn_back(opposite, faces, fans.vertex, c, vertex);
         }

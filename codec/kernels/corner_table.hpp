@@ -22,6 +22,7 @@ constexpr Index previous(Index c) { return c - 1 + 3 * (c % 3 == 0); }
 struct Fans {
     std::vector<Index> vertex;  // per corner
     Index n_vertices = 0;
+    std::vector<Index> first;   // corner of each vertex
 };
 
 // Corners in output order, with the vertices of the pieces numbered by first corner.

@@ -24,13 +24,11 @@ public:
 
     Word encode() {
         const auto on_boundary = [&](Index c) { return regions_.leaving(vertex_[c]); };
-        each_component(on_boundary, [&](Index h) {
-            if (opposite_[h] == none && !is_single(h / 3)) open_component(h);
-        });
-        each_component(std::identity(), [&](Index h) {
-            if (!is_single(h / 3)) closed_component(h);
-        });
-        each_component(std::identity(), [&](Index h) { single_triangle(h); });
+        const auto starts_open = [&](Index h) { return opposite_[h] == none && is_new(h) && !is_single(h / 3); };
+        each_component(on_boundary, starts_open, [&](Index h) { open_component(h); });
+        const auto starts_closed = [&](Index h) { return is_new(h) && !is_single(h / 3); };
+        each_component(std::identity(), starts_closed, [&](Index h) { closed_component(h); });
+        each_component(std::identity(), [&](Index h) { return is_new(h); }, [&](Index h) { single_triangle(h); });
         const auto by_position = [](const SpecialS& a, const SpecialS& b) { return a.position < b.position; };
         std::sort(word_.specials.begin(), word_.specials.end(), by_position);
         return std::move(word_);
@@ -44,18 +42,21 @@ private:
         return opposite_[3 * t] == none && opposite_[3 * t + 1] == none && opposite_[3 * t + 2] == none;
     }
 
-    // enter(h) codes the component of half-edge h if it is of the kind that is due; at(c) is where to enter
-    // one that touches what is coded at corner c.
-    template <class At, class Enter>
-    void each_component(At at, Enter enter) {
-        if (word_.gates.size() == position_of_.size()) return;
+    // Calls code(h) for the components that start with h; at(c) is where to enter one that touches what is coded
+    // at corner c.
+    template <class At, class Starts, class Code>
+    void each_component(At at, Starts starts, Code code) {
+        if (has_all()) return;
         touching_.each_half_edge(at, [&](Index h) {
-            if (!is_new(h)) return;
+            if (!starts(h)) return true;
             const size_t n_before = word_.gates.size();
-            enter(h);
+            code(h);
             if (touching_.any()) reach(n_before);
+            return !has_all();
         });
     }
+
+    bool has_all() const { return word_.gates.size() == position_of_.size(); }
 
     void reach(size_t from) {
         for (size_t t = from; t < word_.gates.size(); ++t) {

@@ -75,7 +75,7 @@ private:
 
 // Calls visit(near, far, h) for all half-edges of the faces that take part.
 template <class Faces, class Visit>
-void each_half_edge(const Faces& faces, const std::vector<bool>& isolated, Visit visit) {
+void each_half_edge(const Faces& faces, std::span<const uint8_t> isolated, Visit visit) {
     for (Index f = 0; f < faces.n_faces(); ++f) {
         const Index first = faces.first(f), end = first + faces.size(f);
         if (isolated[f] || first == end) continue;
@@ -91,7 +91,7 @@ void each_half_edge(const Faces& faces, const std::vector<bool>& isolated, Visit
 }  // namespace
 
 template <class Faces>
-SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, const std::vector<bool>& isolated,
+SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, std::span<const uint8_t> isolated,
                                   std::span<Index> opposite) {
     // A counting sort by the smaller vertex: afterwards bucket v is [start[v - 1], start[v]).
     std::vector<Index> start(static_cast<size_t>(n_vertices) + 1, 0);
@@ -106,7 +106,7 @@ SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, const st
     return matcher.finish();
 }
 
-template SingularEdges match_regular_edges(const TriangleFaces&, Index, const std::vector<bool>&, std::span<Index>);
-template SingularEdges match_regular_edges(const PolygonFaces&, Index, const std::vector<bool>&, std::span<Index>);
+template SingularEdges match_regular_edges(const TriangleFaces&, Index, std::span<const uint8_t>, std::span<Index>);
+template SingularEdges match_regular_edges(const PolygonFaces&, Index, std::span<const uint8_t>, std::span<Index>);
 
 }  // namespace ebz

@@ -22,7 +22,7 @@ struct SingularEdges {
 // Matches the half-edges of every edge that has exactly two, running opposite ways; the edges with
 // more, or with two that run the same way, are returned.  `isolated` faces take no part.
 template <class Faces>
-SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, const std::vector<bool>& isolated,
+SingularEdges match_regular_edges(const Faces& faces, Index n_vertices, std::span<const uint8_t> isolated,
                                   std::span<Index> opposite);
 
 }  // namespace ebz

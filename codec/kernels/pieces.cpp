@@ -169,9 +169,11 @@ private:
             return f;
         };
         for (Index h = 0; h < faces_.n_corners(); ++h) {
-            if (opposite_[h] > h) parent[root(faces_.face(h))] = root(faces_.face(opposite_[h]));
+            if (opposite_[h] <= h) continue;
+            const Index f = root(faces_.face(h)), g = root(faces_.face(opposite_[h]));
+            parent[std::max(f, g)] = std::min(f, g);
         }
-        for (Index f = 0; f < faces_.n_faces(); ++f) parent[f] = root(f);
+        for (Index& f : parent) f = parent[f];  // ascending: what it refers to is a root
         return parent;
     }
 
@@ -209,7 +211,7 @@ private:
 
     const Faces& faces_;
     Index n_vertices_;
-    std::vector<bool> isolated_;
+    std::vector<uint8_t> isolated_;
     std::vector<Index> opposite_;
     SingularEdges singular_;
     size_t n_steps_ = 0;

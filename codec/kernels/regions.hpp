@@ -55,7 +55,7 @@ private:
 
     const Faces& faces_;
     std::span<const Index> vertex_;
-    std::vector<bool> marked_;
+    std::vector<uint8_t> marked_;
     std::vector<Index> leaving_;
     std::vector<Gate> gates_;
 };

@@ -17,7 +17,7 @@ public:
     template <class Faces>
     TouchingFans(const Faces& faces, const Fans& fans, Index n_vertices) : point_(fans.n_vertices, none), fan_(fans.vertex) {
         std::vector<Index> n_fans(static_cast<size_t>(n_vertices) + 1);
-        each_fan(faces, [&](Index, Index vertex) { ++n_fans[vertex]; });
+        for (const Index c : fans.first) ++n_fans[faces[c]];
         Index n_touching = 0;
         for (Index& n : n_fans) {
             const Index number = n > 1 ? n : 0;
@@ -29,11 +29,12 @@ public:
         if (corners_.empty()) return;
         is_reached_.resize(static_cast<size_t>(n_vertices));
         std::vector<Index> at(starts_.begin(), starts_.end());
-        each_fan(faces, [&](Index c, Index vertex) {
-            if (starts_[vertex] == starts_[vertex + 1]) return;
+        for (const Index c : fans.first) {
+            const Index vertex = faces[c];
+            if (starts_[vertex] == starts_[vertex + 1]) continue;
             point_[fan_[c]] = vertex;
             corners_[at[vertex]++] = c;
-        });
+        }
     }
 
     bool any() const { return !corners_.empty(); }
@@ -46,8 +47,8 @@ public:
         reached_.push_back(vertex);
     }
 
-    // Calls enter(h) for all half-edges, but first for those where reached fans touch: at(c) is the one around
-    // corner c, or none.  What enter() reaches is seen to before the next half-edge.
+    // Calls enter(h) for all half-edges until it returns false, but first for those where reached fans touch: at(c)
+    // is the one around corner c, or none.  What enter() reaches is seen to before the next half-edge.
     template <class At, class Enter>
     void each_half_edge(At at, Enter enter) {
         size_t n_seen = 0;
@@ -55,28 +56,18 @@ public:
             for (; n_seen < reached_.size(); ++n_seen) {
                 const Index vertex = reached_[n_seen];
                 for (Index i = starts_[vertex]; i < starts_[vertex + 1]; ++i) {
-                    if (const Index h = at(corners_[i]); h != none) enter(h);
+                    if (const Index h = at(corners_[i]); h != none && !enter(h)) return false;
                 }
             }
+            return true;
         };
-        enter_touching();
+        if (!enter_touching()) return;
         for (Index h = 0; h < static_cast<Index>(fan_.size()); ++h) {
-            enter(h);
-            enter_touching();
+            if (!enter(h) || !enter_touching()) return;
         }
     }
 
 private:
-    template <class Faces, class Visit>
-    void each_fan(const Faces& faces, Visit visit) const {
-        Index n_seen = 0;
-        for (Index c = 0; c < faces.n_corners(); ++c) {
-            if (fan_[c] != n_seen) continue;
-            ++n_seen;
-            visit(c, faces[c]);
-        }
-    }
-
     std::vector<Index> point_;          // the vertex of each fan that touches another
     std::vector<Index> starts_;         // in corners_, of each vertex
     std::vector<Index> corners_;        // the first of each such fan, ascending around each vertex

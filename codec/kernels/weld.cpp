@@ -94,7 +94,7 @@ public:
 
 private:
     void find_edges() {
-        std::vector<bool> is_aside(faces_.n_faces());
+        std::vector<uint8_t> is_aside(faces_.n_faces());
         for (Index f = 0; f < faces_.n_faces(); ++f) is_aside[f] = !asks(f);
         std::vector<Index> opposite(faces_.n_corners(), none);
         match_regular_edges(faces_, static_cast<Index>(is_asked_.size()), is_aside, opposite);

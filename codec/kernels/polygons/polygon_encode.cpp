@@ -57,11 +57,12 @@ private:
     void each_component(At at, Enter enter) {
         const std::vector<Index>& coded = encoded_.source_corner;
         touching_.each_half_edge(at, [&](Index h) {
-            if (!is_new(h)) return;
+            if (!is_new(h)) return true;
             const size_t n_before = coded.size();
             enter(h);
-            if (!touching_.any()) return;
+            if (!touching_.any()) return true;
             for (size_t i = n_before; i < coded.size(); ++i) touching_.reach(coded[i]);
+            return true;
         });
     }
 
