@@ -37,6 +37,9 @@ public:
     int p12() const { return static_cast<int>(word_ >> 20); }
     int p16() const { return static_cast<int>(word_ >> 16); }
 
+    // As it is, where all bits are set; new where none is.
+    void keep(uint32_t bits) { word_ = (word_ & bits) | (fresh & ~bits); }
+
     template <class Coder>
     bool code(Coder& coder, bool bit) {
         bit = coder.bit(bit, bounded(p16()));
@@ -61,7 +64,9 @@ private:
         return table;
     }();
 
-    uint32_t word_ = 1u << 31;
+    static constexpr uint32_t fresh = 1u << 31;
+
+    uint32_t word_ = fresh;
 };
 
 // An entry of DegreePrior as an estimate; 0 is no knowledge.
@@ -74,6 +79,15 @@ struct Evidence {
     static constexpr int n_decisions = 3;
     uint32_t check = 0;
     std::array<Estimate, n_decisions> estimates;
+
+    // Whether the context was met before; if not, it starts anew.  Without a branch, which nobody could foresee.
+    bool meet(uint32_t hash) {
+        const bool known = check == hash;
+        const uint32_t kept = known ? ~uint32_t{0} : 0;
+        for (Estimate& estimate : estimates) estimate.keep(kept);
+        check = hash;
+        return known;
+    }
 };
 
 // The evidence of several contexts, a table each, by hash; what collides starts anew.
@@ -81,15 +95,10 @@ class EvidenceTables {
 public:
     EvidenceTables(int n_tables, int n_bits) : n_bits_(n_bits), slots_(size_t{1} * n_tables << n_bits) {}
 
-    // n_known grows where the context was met before.
-    Evidence& find(int table, uint32_t hash, int& n_known) {
+    // Asked for ahead of what is done with it.
+    Evidence& at(int table, uint32_t hash) {
         Evidence& slot = slots_[static_cast<size_t>(table) << n_bits_ | hash >> (32 - n_bits_)];
-        if (slot.check == hash) {
-            ++n_known;
-        } else {
-            slot = {};
-            slot.check = hash;
-        }
+        __builtin_prefetch(&slot, 1);
         return slot;
     }
 

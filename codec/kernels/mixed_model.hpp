@@ -73,7 +73,9 @@ private:
                 for (uint32_t latest = 0; latest < 64; ++latest) {
                     const int prior = degree_prior[d][degree][latest];
                     if (prior == 0) continue;
-                    Evidence& evidence = tables_.find(0, context_hash(0, degree, latest) + salt(d, 0), n_known_);
+                    const uint32_t hash = context_hash(0, degree, latest) + salt(d, 0);
+                    Evidence& evidence = tables_.at(0, hash);
+                    evidence.meet(hash);
                     evidence.estimates[slot(d)] = starting_estimate(prior);
                 }
             }
@@ -87,11 +89,13 @@ private:
     }
 
     void find(int decision, uint32_t below_length) {
-        n_known_ = 0;
+        std::array<uint32_t, n> hashes;
         for (int i = 0; i < n; ++i) {
-            const uint32_t added = salt(decision, i == Contexts::of_lengths ? below_length : 0);
-            evidence_[i] = &tables_.find(i, hashes_[i] + added, n_known_);
+            hashes[i] = hashes_[i] + salt(decision, i == Contexts::of_lengths ? below_length : 0);
+            evidence_[i] = &tables_.at(i, hashes[i]);
         }
+        n_known_ = 0;
+        for (int i = 0; i < n; ++i) n_known_ += evidence_[i]->meet(hashes[i]);
     }
 
     template <class Coder>

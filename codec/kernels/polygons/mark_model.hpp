@@ -73,7 +73,9 @@ private:
         const uint32_t around = pack(size, sizes_.at(left), sizes_.at(right)), degrees = pack(gate.degree, right.degree);
         int i = 0, n_known = 0;
         const auto add = [&](uint32_t a, uint32_t b = 0) {
-            evidence_[i] = &tables_.find(i, context_hash(i, a, b), n_known);
+            const uint32_t hash = context_hash(i, a, b);
+            evidence_[i] = &tables_.at(i, hash);
+            n_known += evidence_[i]->meet(hash);
             ++i;
         };
         add(pack(size, sizes_.latest(1), sizes_.latest(2), sizes_.latest(3)));

@@ -3,6 +3,7 @@
 // Reference: M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -53,15 +54,24 @@ private:
     Inputs *active_a_ = nullptr, *active_b_ = nullptr;
 };
 
+// Of a bit being 1, and its share of 2^16, as coders take it.
+struct Probability {
+    float p;
+    uint32_t p16;
+};
+
 // Of logits within 2^-6: nearer ones would gain less than 2^-15 bits.
 inline constexpr auto probabilities = [] {
-    std::array<float, 1025> table{};
-    for (size_t i = 0; i < table.size(); ++i) table[i] = squash((static_cast<float>(i) - 512.0f) * (1.0f / 32.0f));
+    std::array<Probability, 1025> table{};
+    for (size_t i = 0; i < table.size(); ++i) {
+        const float p = squash((static_cast<float>(i) - 512.0f) * (1.0f / 32.0f));
+        table[i] = {p, static_cast<uint32_t>(std::clamp(static_cast<int32_t>(p * 65536.0f), 1, 65535))};
+    }
     return table;
 }();
 
 // Logits are within 16.
-inline float probability(float logit) {
+inline Probability probability(float logit) {
     return probabilities[static_cast<size_t>(static_cast<int32_t>(logit * 32.0f + 512.5f))];
 }
 

@@ -98,14 +98,12 @@ private:
         inputs[1] = odds;
         inputs[2] = values;
         const size_t set = (node * 3 + x_->turn) * n_levels + static_cast<size_t>(x_->level);
-        const float logit = mixer_.mix(inputs, node, set);
-        const float p = probability(logit);
-        const int32_t p16 = std::clamp(static_cast<int32_t>(p * 65536.0f), 1, 65535);
-        const bool bit = coder_.bit(answer, static_cast<uint32_t>(p16));
+        const auto [p, p16] = probability(mixer_.mix(inputs, node, set));
+        const bool bit = coder_.bit(answer, p16);
         const float target = bit ? 1.0f : 0.0f;
         n_decisions_ += 1.0f;
         mixer_.update(inputs, (target - p) * rate_);
-        if (counted) contexts_.learn(slot, bit, static_cast<float>(p16 << 6));
+        if (counted) contexts_.learn(slot, bit, static_cast<float>(static_cast<int32_t>(p16 << 6)));
         if (values_.any()) values_.learn(bit, node);
         return bit;
     }
