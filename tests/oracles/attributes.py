@@ -12,7 +12,7 @@ from tests.oracles.recall import Table
 Rows = list[list[int]]
 N = 8
 FITTED, PARALLELOGRAM, AVERAGE, NEAR, SECOND, GUESS, IMPLIED, LAST = range(N)
-N_FEATURES = 11
+N_FEATURES = 11  # the three of places are 0
 
 
 class Fit:

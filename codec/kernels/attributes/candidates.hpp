@@ -114,6 +114,10 @@ public:
     uint32_t n_recalls() const { return recalled_ != nullptr ? recalled_->hits() : 0; }
     bool has_guess() const { return guess_.is_there(); }
     bool has_hinges() const { return hinges_.has_hinges(); }
+    // Where the item is from the mean of its neighbours; zeros where nothing is anywhere, or a guess tells more.
+    const std::array<double, 3>& away() const { return hinges_.away(); }
+    // Whether values may be functions of the place: shares are not.
+    bool has_gradient() const { return around_->n_neighbours > 0 && coding_.relation != Relation::sum; }
     // What errors are to be divided by.
     double extent(size_t turn) const { return directed_ && turn < 2 ? direction_.spread[turn] : hinges_.extent(); }
 

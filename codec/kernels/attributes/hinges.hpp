@@ -1,6 +1,7 @@
 // How values go on along the surface by where items are: nearer neighbours tell more, and triangles unfold.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +22,12 @@ public:
         n_hinges_ = 0;
         total_ = 0;
         n_neighbours_ = static_cast<double>(around.n_neighbours);
+        away_ = {};
         if (points_.empty()) return;
+        for (size_t d = 0; d < 3; ++d) {
+            for (size_t i = 0; i < around.n_neighbours; ++i) away_[d] += at(v, d) - at(around.neighbours[i], d);
+            away_[d] /= std::max(n_neighbours_, 1.0);
+        }
         for (size_t i = 0; i < around.n_neighbours; ++i) {
             nearness_[i] = 1 / (square(v, around.neighbours[i]) + 1e-200);
             total_ += nearness_[i];
@@ -35,6 +41,9 @@ public:
 
     // The square root of a mean distance; 1 where there is none.
     double extent() const { return has_mean() ? std::sqrt(std::sqrt(n_neighbours_ / total_ + 1e-100)) : 1.0; }
+
+    // Of the item from the mean of its neighbours.
+    const std::array<double, 3>& away() const { return away_; }
 
     // By the inverse squares of distances.
     template <class Value>
@@ -91,6 +100,7 @@ private:
     }
 
     std::span<const double> points_;
+    std::array<double, 3> away_{};
     std::array<double, Neighbourhood::max_neighbours> nearness_{};
     std::array<Hinge, Neighbourhood::max_triangles> hinges_{};
     size_t n_hinges_ = 0;

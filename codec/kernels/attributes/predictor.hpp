@@ -14,6 +14,7 @@
 #include "../positions/wrapping.hpp"
 #include "attributes.hpp"
 #include "candidates.hpp"
+#include "gradient.hpp"
 #include "neighbourhood.hpp"
 #include "number_model.hpp"
 
@@ -62,6 +63,7 @@ public:
         const double actual = S::value(value);
         const double weight = 1 / (local_ * local_ + 1e-4 * unit_ * unit_ + 1e-300);
         if (std::abs(actual) < 1e150 && usable_) t.fit.add(features_, actual - candidates_.mean(), weight), t.fit.tick();
+        if (candidates_.has_gradient()) t.gradient.learn(candidates_.away(), distance(actual, candidates_.mean()));
         unsigned hit = 0;
         for (size_t k = 0; k < n_candidates; ++k) {
             if (!candidates_.has(k)) continue;
@@ -84,11 +86,12 @@ public:
 
 private:
     using Kind = Candidates<S>;
-    static constexpr size_t max_turns = 64, kept = 4, n_features = 11;
+    static constexpr size_t max_turns = 64, kept = 4, n_differences = 11, n_features = n_differences + Gradient::n_inputs;
     using Fit = positions::LeastSquares<n_features>;
 
     struct Turn {
-        Fit fit{{0.6, 0, 0, 0.5, 0.5, 0, 0, 0, 0, 0, 0}, 3.0, 3000};
+        Fit fit{{0.6, 0, 0, 0.5, 0.5}, 3.0, 3000};
+        Gradient gradient;
         std::array<double, n_candidates> error{};
         std::array<uint16_t, n_candidates> n_seen{};
         std::array<uint8_t, n_candidates> history{};
@@ -113,6 +116,8 @@ private:
         features_ = {difference(Kind::parallelogram), difference(Kind::near), third, difference(Kind::guess), difference(Kind::implied)};
         for (size_t back = 1; back <= 3 && back <= turn; ++back) features_[4 + back] = deviation_[(turn - back) % kept];
         for (size_t back = 1; back <= 3 && back <= turn; ++back) features_[7 + back] = steepness_[(turn - back) % kept];
+        const auto by_place = turns_[std::min(turn, max_turns - 1)].gradient.inputs(candidates_.away());
+        std::copy(by_place.begin(), by_place.end(), features_.begin() + n_differences);
         usable_ = true;
         for (double& x : features_) {
             if (!(std::abs(x) < 1e150)) usable_ = false;
