@@ -1,6 +1,8 @@
 // The spokes of a fan: the edges between two of its corners, each named by the half-edge that starts there.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -21,23 +23,27 @@ public:
     bool is_spoke(Index h) const { return opposite_[h] != none && fan_[beyond(h)] == fan_[h]; }
 
     // The fan that spoke h ends at, none if it is no spoke there.
-    Index other_fan(Index h) const { return is_spoke(opposite_[h]) ? fan_[opposite_[h]] : none; }
+    Index other_fan(Index h) const {
+        const Index fan = fan_[opposite_[h]];
+        return fan_[next(h)] == fan ? fan : none;
+    }
 
     // Takes the corners of a fan in turn, each behind its spoke: of a closed fan from corner c on, of an open one
     // from the end that has no spoke.
     void turn_from(Index c) {
-        Index first = c;
-        do {
-            if (!is_spoke(first)) break;
-            first = beyond(first);
-        } while (first != c);
-        is_closed_ = is_spoke(first);
+        const Index fan = fan_[c];
         corners_.clear();
-        for (Index at = first; at != none;) {
+        Index at = c;
+        do {
             corners_.push_back(at);
-            const Index across = opposite_[previous(at)];
-            at = across == none || across == first || fan_[across] != fan_[at] ? none : across;
-        }
+            at = opposite_[previous(at)];
+        } while (at != none && at != c && fan_[at] == fan);
+        is_closed_ = at == c;
+        if (is_closed_ || !is_spoke(c)) return;
+        const auto n = static_cast<std::ptrdiff_t>(corners_.size());
+        for (at = c; is_spoke(at); corners_.push_back(at)) at = beyond(at);
+        std::reverse(corners_.begin() + n, corners_.end());
+        std::rotate(corners_.begin(), corners_.begin() + n, corners_.end());
     }
 
     bool is_closed() const { return is_closed_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -22,6 +23,7 @@ public:
           truth_(std::move(truth)),
           coder_(coder),
           spokes_(points.opposite, points.fan),
+          first_corner_(points.fan.begin()),
           vertex_(points.point.begin(), points.point.end()),
           n_vertices_(static_cast<size_t>(points.n_points)) {}
 
@@ -69,11 +71,15 @@ private:
 
     void fans() {
         const auto n_fans = static_cast<Index>(points_.point_of_fan.size());
-        entry_.assign(points_.point_of_fan.size(), none);
+        entry_ = std::make_unique_for_overwrite<Index[]>(points_.point_of_fan.size());
         n_told_.assign(points_.point_of_fan.size(), 0);
-        is_cut_.assign(vertex_.size(), 0);
+        is_cut_.assign(vertex_.size(), false);
+        const bool any_shared = n_fans > points_.n_points;
         gap_ = code_gap();
         for (Index f = 0; f < n_fans; ++f) {
+            // Most points have one fan, which is whole.
+            while (!any_shared && f < n_fans && gap_ > 0 && n_told_[f] == 0) ++f, --gap_;
+            if (f == n_fans) return;
             if (code_is_cut(f)) cut_fan(f);
             else if (n_vertices_[points_.point_of_fan[f]] > 0) whole_fan(f);
             else first_fan(f);
@@ -103,8 +109,8 @@ private:
 
     // Of the fans asked for, ascending.
     Index first_corner(Index f) {
-        while (points_.fan[first_corner_] != f) ++first_corner_;
-        return first_corner_;
+        first_corner_ = std::find(first_corner_, points_.fan.end(), f);
+        return static_cast<Index>(first_corner_ - points_.fan.begin());
     }
 
     void whole_fan(Index f) {
@@ -116,7 +122,7 @@ private:
     }
 
     void cut_fan(Index f) {
-        spokes_.turn_from(entry_[f] == none ? first_corner(f) : entry_[f]);
+        spokes_.turn_from(n_told_[f] == 0 ? first_corner(f) : entry_[f]);
         code_cuts(f);
         const size_t n = spokes_.corners().size();
         Run run{none, none};
@@ -175,7 +181,7 @@ private:
         is_cut_[spoke] = true;
         const Index other = spokes_.other_fan(spoke);
         if (other <= f) return;
-        if (entry_[other] == none) entry_[other] = points_.opposite[spoke];
+        if (n_told_[other] == 0) entry_[other] = points_.opposite[spoke];
         n_told_[other] = std::min<uint8_t>(n_told_[other] + 1, max_told);
     }
 
@@ -237,19 +243,19 @@ private:
     SplitTruth truth_;
     Coder& coder_;
     FanSpokes spokes_;
-    std::vector<Index> vertex_;      // of each corner
-    std::vector<Index> n_vertices_;  // so far, of each point
-    std::vector<Index> more_;        // the point of each vertex that is not the first there
-    std::vector<Index> entry_;       // the first spoke of each fan that was told to be cut at its other end
-    std::vector<uint8_t> n_told_;    // such spokes of each fan, up to max_told
-    std::vector<uint8_t> is_cut_;    // spokes
+    std::span<const Index>::iterator first_corner_;  // of the latest fan asked for
+    std::vector<Index> vertex_;       // of each corner
+    std::vector<Index> n_vertices_;   // so far, of each point
+    std::vector<Index> more_;         // the point of each vertex that is not the first there
+    std::unique_ptr<Index[]> entry_;  // the first spoke of each fan that was told to be cut at its other end
+    std::vector<uint8_t> n_told_;     // such spokes of each fan, up to max_told
+    std::vector<bool> is_cut_;        // spokes
     std::vector<std::pair<Index, Index>> unresolved_;  // a corner, and the rank of its vertex
     // Of the fan under way.
     std::vector<OtherEnd> ends_;  // of each spoke
     std::vector<size_t> cuts_;
     size_t n_cuts_ahead_ = 0;
 
-    Index first_corner_ = 0;
     uint64_t gap_ = 0;
     size_t n_gaps_ = 0;
     bool latest_cut_ = false, latest_whole_ = false, is_latest_apart_ = false;
