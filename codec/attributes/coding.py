@@ -221,9 +221,12 @@ def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[st
 
 
 def _points(plan: Plan, items: Items, guess: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Where entries along the surface are, if that tells anything."""
-    tells = Guess.HEIGHTS in plan.guess if len(guess) else plan.method == Method.NUMBERS
-    return items.points if tells and items.is_by_corner else np.zeros(0)
+    """Where entries are, if that tells anything; of labels only which ones are near."""
+    if len(guess):
+        tells = Guess.HEIGHTS in plan.guess
+    else:
+        tells = plan.method == Method.NUMBERS or not items.has_surface
+    return items.points if tells and items.has_places else np.zeros(0)
 
 
 def _space(plan: Plan, array: EncodedArray) -> int:

@@ -173,6 +173,11 @@ class Items(NamedTuple):
         return len(self.item) > 0
 
     @property
+    def has_places(self) -> bool:
+        """Whether entries are somewhere: those of corners, and of vertices where no face is."""
+        return self.is_by_corner or (not self.has_surface and len(self.at) > 0)
+
+    @property
     def points(self) -> Floats:
         """(n, 3) where entries are, nothing where they are nowhere."""
         return NOWHERE if self.sites is None else self.sites.points[self.at]

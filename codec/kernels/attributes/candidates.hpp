@@ -31,7 +31,7 @@ public:
           values_(values),
           latest_(n_sites(items), -1),
           guess_(items, coding, values, corners),
-          hinges_(items.item.empty() || guess_.is_there() ? std::span<const double>() : items.points) {}
+          hinges_(guess_.is_there() ? std::span<const double>() : items.points) {}
 
     // The item under way.
     void begin(int32_t v, const Neighbourhood& around) {

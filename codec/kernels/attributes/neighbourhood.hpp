@@ -113,10 +113,10 @@ private:
     int32_t at_ = -1;
 };
 
-// Rows, one after another.
+// Rows, one after another: those before, where they have places the nearest of them.
 class RowWalk {
 public:
-    explicit RowWalk(const Items& items) : n_(items.n) {}
+    explicit RowWalk(const Items& items) : n_(items.n), points_(items.points) {}
 
     int32_t next() { return at_ + 1 < n_ ? ++at_ : -1; }
 
@@ -124,12 +124,43 @@ public:
 
     void surround(int32_t row, Neighbourhood& out) {
         out.clear();
+        if (!points_.empty()) return add_nearest(row, out);
         for (int32_t k = 1; k <= 3 && k <= row; ++k) out.add(row - k);
         if (row >= 2) out.add(Parallelogram{row - 1, row - 1, row - 2});
     }
 
 private:
+    static constexpr int32_t n_before = 256;
+    static constexpr double farthest = 1e300;
+
+    // The nearest first, of those alike the latest.
+    void add_nearest(int32_t row, Neighbourhood& out) const {
+        std::array<double, Neighbourhood::max_neighbours> squares;
+        for (int32_t other = row - 1; other >= 0 && other >= row - n_before; --other) {
+            const double square = square_between(row, other);
+            size_t i = out.n_neighbours;
+            if (i == Neighbourhood::max_neighbours && !(square < squares[--i])) continue;
+            for (; i > 0 && square < squares[i - 1]; --i) {
+                squares[i] = squares[i - 1];
+                out.neighbours[i] = out.neighbours[i - 1];
+            }
+            squares[i] = square;
+            out.neighbours[i] = other;
+            out.n_neighbours = std::min(out.n_neighbours + 1, Neighbourhood::max_neighbours);
+        }
+    }
+
+    double square_between(int32_t a, int32_t b) const {
+        double sum = 0;
+        for (size_t d = 0; d < 3; ++d) {
+            const double x = points_[3 * static_cast<size_t>(a) + d] - points_[3 * static_cast<size_t>(b) + d];
+            sum += x * x;
+        }
+        return sum < farthest ? sum : farthest;
+    }
+
     int32_t n_, at_ = -1;
+    std::span<const double> points_;
 };
 
 }  // namespace ebz::attributes
