@@ -41,11 +41,12 @@ class Listing(NamedTuple):
 
 def listing_of(found: Integers) -> Listing:
     """The list of ascending, different integers."""
-    magnitudes, row = np.unique(np.where(found < 0, ~found, found), return_inverse=True)
-    has_plain, has_mirrored = np.zeros((2, len(magnitudes)), bool)
-    has_plain[row[found >= 0]] = True
-    has_mirrored[row[found < 0]] = True
-    kinds = np.where(has_plain, np.where(has_mirrored, BOTH, PLAIN), MIRRORED).astype(np.uint64)
+    n_negative = int(np.searchsorted(found, 0))
+    plain, mirrored = found[n_negative:], ~found[:n_negative]
+    magnitudes = np.union1d(plain, mirrored)
+    kinds = np.full(len(magnitudes), PLAIN, np.uint64)
+    kinds[np.searchsorted(magnitudes, mirrored)] = MIRRORED
+    kinds[np.searchsorted(magnitudes, np.intersect1d(plain, mirrored))] = BOTH
     steps = np.diff(magnitudes, prepend=0).astype(np.uint64)
     return Listing(len(found), min((_encode(kinds, steps, k) for k in _widths(steps)), key=len))
 
@@ -58,7 +59,8 @@ def listed(integers: Integers) -> tuple[Listing, Integers] | None:
 
 def _widths(steps: Unsigned) -> list[int]:
     """How many bits of each step may be plain: none, or nearly those of the middle one."""
-    middle = int(np.median(steps)) if len(steps) else 0
+    half = len(steps) // 2
+    middle = int(np.partition(steps, half)[half]) if len(steps) else 0
     most = min(middle.bit_length(), MAX_PLAIN_BITS)
     return sorted({0, max(0, most - 3), max(0, most - 1)})
 

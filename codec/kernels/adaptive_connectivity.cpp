@@ -72,6 +72,7 @@ auto with_coder(Effort effort, const WordHeader& header, Index n_specials, Symbo
         return work(coder, reverse);
     }
     Ans ans(source...);
+    if constexpr (Ans::encoding) ans.reserve(static_cast<size_t>(header.n_symbols));
     using Coder = SingleLane<Ans>;
     Reverse reverse = effort == Effort::direct
                           ? DirectWord<Coder, DirectRows>(Coder(ans), header, n_specials, word.symbols, word.specials).run()

@@ -29,6 +29,9 @@ class Encoder {
 public:
     static constexpr bool encoding = true;
 
+    // n: how many steps are expected.
+    void reserve(size_t n) { steps_.reserve(n); }
+
     template <class Model>
     uint32_t symbol(size_t lane, Model& model, uint32_t symbol) {
         const Share share = model.share(symbol);

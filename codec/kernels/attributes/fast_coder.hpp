@@ -184,7 +184,7 @@ std::vector<uint8_t> encode_shortest(const Items& items, std::span<uint32_t> gro
     std::vector<uint8_t> best;
     FastWay best_way;
     const auto attempt = [&](FastWay way) {
-        positions::TwoPartEncoder coder;
+        positions::TwoPartEncoder coder(groups.size());
         FastCoder<S, positions::TwoPartEncoder>(coder, way, width_of(items), groups, guess).run(items);
         std::vector<uint8_t> bytes = coder.finish();
         if (!best.empty() && bytes.size() >= best.size()) return;

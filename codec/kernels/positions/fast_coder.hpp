@@ -146,7 +146,7 @@ std::vector<uint8_t> encode_fast(const Surface& mesh, std::span<const int64_t> v
         vertices[i / 3].position[i % 3] = static_cast<uint32_t>(value);
     }
     if (!fits) return {};
-    TwoPartEncoder coder;
+    TwoPartEncoder coder(values.size() + values.size() / 8);
     code_positions_fast(coder, mesh, {vertices.get(), n});
     return coder.finish();
 }

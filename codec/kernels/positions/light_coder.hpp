@@ -152,7 +152,7 @@ std::vector<uint8_t> encode_light(const Surface& mesh, std::span<const int64_t> 
         for (size_t d = 0; d < 3; ++d) sites[v].position[d] = static_cast<Unsigned>(values[3 * v + d]);
         sites[v].position[3] = 0;
     }
-    TwoPartEncoder coder;
+    TwoPartEncoder coder(values.size() + values.size() / 2);
     code_positions_light(coder, mesh, axes, sites.get());
     const std::vector<uint8_t> coded = coder.finish();
     std::vector<uint8_t> bytes = {static_cast<uint8_t>(axes.last | (sizeof(Unsigned) == sizeof(uint64_t) ? is_wide : 0))};

@@ -130,7 +130,7 @@ std::vector<uint8_t> encode_medium(const Surface& mesh, std::span<const int64_t>
         sites[v].position[3] = 0;
     }
     if (!fits) return {};
-    TwoPartEncoder coder;
+    TwoPartEncoder coder(values.size() + values.size() / 8);
     code_positions_medium(coder, mesh, sites.get());
     return coder.finish();
 }

@@ -20,6 +20,9 @@ struct TwoPartEncoder {
     ans::Encoder<3> symbols;
     BitWriter plain;
 
+    // n: how many symbols are expected.
+    explicit TwoPartEncoder(size_t n) { symbols.reserve(n); }
+
     std::vector<uint8_t> finish() {
         const std::vector<uint8_t> first = symbols.finish(), second = plain.finish();
         std::vector<uint8_t> bytes(4 + first.size() + second.size());
