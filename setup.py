@@ -52,6 +52,7 @@ setup(
                 "-ffp-contract=off",
                 "-fvisibility=hidden",
                 "-fno-strict-aliasing",
+                "-fno-tree-slp-vectorize",  # what loops carry along is faster unpacked
                 "-DNDEBUG",
             ],
             extra_link_args=link_args,

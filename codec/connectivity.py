@@ -252,18 +252,17 @@ def _decode_word(
     model: WordModel,
     place: Callable[[str], object],
 ) -> tuple[tuple[npt.NDArray[np.uint8], Int32s, Int32s, int], Int64s, PolygonCorners | None]:
-    data = np.frombuffer(word, np.uint8)
     sizes = counts.n_symbols, counts.n_closed, counts.n_single
     if isinstance(model, AnyTable):
         with corrupt_at(place("special S")):
             specials = decode_specials(special_integers, counts.n_specials, counts.n_symbols)
         with corrupt_at(place("word")):
             frozen = _frozen(model)
-            return _kernels.decode_connectivity(data, *sizes, specials, frozen), specials, None
+            return _kernels.decode_connectivity(word, *sizes, specials, frozen), specials, None
     with corrupt_at(place("word")):
         if counts.polygons is None:
-            return *_kernels.decode_adaptive(data, *sizes, counts.n_specials, model), None
-        found = _kernels.decode_polygon_word(data, *sizes, counts.n_specials, model)
+            return *_kernels.decode_adaptive(word, *sizes, counts.n_specials, model), None
+        found = _kernels.decode_polygon_word(word, *sizes, counts.n_specials, model)
         arrays, specials, marks = found
         return arrays, specials, _decode_corners(arrays[1], marks, counts.polygons)
 
@@ -404,6 +403,4 @@ def _decode_gluing(
 ) -> Int32s:
     if not n_copies:
         return np.arange(n_vertices, dtype=np.int32)
-    return _kernels.decode_gluing(
-        np.frombuffer(data, np.uint8), opposite, vertex, n_vertices, n_copies
-    )
+    return _kernels.decode_gluing(data, opposite, vertex, n_vertices, n_copies)

@@ -26,7 +26,8 @@ def digest(mesh: Mesh) -> bytes:
         ("face", mesh.face_attributes),
         ("corner", mesh.corner_attributes),
     ):
-        _add_all(state, owner, attributes)
+        if attributes:
+            _add_all(state, owner, attributes)
     for name, element in mesh.elements.items():
         _add(state, f"offsets of {name}", element.offsets)
         _add(state, f"corners of {name}", element.corners)

@@ -16,7 +16,7 @@ def encode_columns(*columns: npt.ArrayLike) -> bytes:
 
 def decode_columns(data: bytes, n_rows: int, n_columns: int) -> list[Columns]:
     """The columns; whatever the bytes are, n_rows values come back for each."""
-    flat = _kernels.decode_integers(np.frombuffer(data, np.uint8), n_rows, n_columns)
+    flat = _kernels.decode_integers(data, n_rows, n_columns)
     return list(flat.reshape(n_rows, n_columns).T)
 
 

@@ -34,7 +34,7 @@ class Listing(NamedTuple):
 
     def at(self, which: Integers) -> Integers:
         """The integers of those numbers; raises CorruptError where there is none."""
-        found = _kernels.decode_list(np.frombuffer(self.data, np.uint8), self.n)
+        found = _kernels.decode_list(self.data, self.n)
         rows = which if which.ndim == 2 else which.reshape(-1, 1)
         return _kernels.look_up(found, rows).reshape(which.shape)
 

@@ -19,7 +19,6 @@ from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.polygons import PolygonCorners
 
 Array = npt.NDArray[Any]
-Bytes = npt.NDArray[np.uint8]
 NOTHING = np.zeros(0, np.int32)
 
 
@@ -218,7 +217,7 @@ class Known:
 
         return _shortest(_is_counting(vertices), code)
 
-    def decode_vertices(self, method: Method, data: Bytes) -> Int32s:
+    def decode_vertices(self, method: Method, data: bytes) -> Int32s:
         if method == Method.IDENTITY:
             return _counting(self.n_vertices)
         uniform = method == Method.UNIFORM
@@ -229,7 +228,7 @@ class Known:
         stream = _kernels.encode_vertex_order(*self.arrays, visits, False, vertices)
         return bytes([Method.ALONG_FACES]) + stream
 
-    def decode_vertices_along(self, data: Bytes, faces: Int32s, rotations: Int32s | None) -> Int32s:
+    def decode_vertices_along(self, data: bytes, faces: Int32s, rotations: Int32s | None) -> Int32s:
         visits = self._first_uses(faces, rotations)
         return _kernels.decode_vertex_order(data, *self.arrays, visits, False)
 
@@ -279,9 +278,9 @@ def _shortest(is_identity: bool, code: Callable[[bool], bytes]) -> bytes:
     return min(streams, key=len)
 
 
-def _split(stream: bytes) -> tuple[Method, Bytes]:
+def _split(stream: bytes) -> tuple[Method, bytes]:
     try:
-        return Method(stream[0]), np.frombuffer(stream, np.uint8)[1:]
+        return Method(stream[0]), stream[1:]
     except (IndexError, ValueError):
         raise CorruptError(f"unknown method {stream[:1].hex() or 'of no byte'}") from None
 

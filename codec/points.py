@@ -33,4 +33,4 @@ def decode(stream: bytes | None, n: int) -> Integers:
         return np.zeros((0, 3), np.int64)
     if not n:
         raise CorruptError("every vertex is in a face")
-    return _kernels.decode_points(np.frombuffer(stream, np.uint8), n).reshape(-1, 3)
+    return _kernels.decode_points(stream, n).reshape(-1, 3)

@@ -143,7 +143,7 @@ def decode(coded: Coded, surface: Surface, n_vertices: int) -> npt.NDArray[Any]:
     Without a list some come back, whatever the bytes are.
     """
     along = _along(surface, n_vertices, coded.coding.cut)
-    decoded = _decode(np.frombuffer(coded.data, np.uint8), along, coded.coding.method)
+    decoded = _decode(coded.data, along, coded.coding.method)
     if coded.listing is not None:
         decoded = coded.listing.at(decoded)
     if along.order is None:
@@ -153,7 +153,7 @@ def decode(coded: Coded, surface: Surface, n_vertices: int) -> npt.NDArray[Any]:
     return values
 
 
-def _decode(stream: npt.NDArray[np.uint8], along: Along, method: Method) -> npt.NDArray[Any]:
+def _decode(stream: bytes, along: Along, method: Method) -> npt.NDArray[Any]:
     if method == Method.FAST:
         return _kernels.decode_positions_fast(stream, *along.arrays)
     if method == Method.MEDIUM:

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from contextvars import ContextVar, copy_context
 from typing import TypeVar
 
@@ -14,16 +13,19 @@ Item = TypeVar("Item")
 _threads: ContextVar[int] = ContextVar("threads", default=1)
 
 
-@contextmanager
-def using(n: int) -> Iterator[None]:
+class using:  # noqa: N801 (used like a function)
     """Lets `run` take up to n threads in this context; 0 means one per core."""
-    if not hasattr(n, "__index__") or n < 0:
-        raise OptionError(f"threads is {n!r}, not an integer of at least 0")
-    token = _threads.set(n or os.cpu_count() or 1)
-    try:
-        yield
-    finally:
-        _threads.reset(token)
+
+    def __init__(self, n: int) -> None:
+        if not hasattr(n, "__index__") or n < 0:
+            raise OptionError(f"threads is {n!r}, not an integer of at least 0")
+        self._n = n
+
+    def __enter__(self) -> None:
+        self._before = _threads.set(self._n or os.cpu_count() or 1)
+
+    def __exit__(self, *error: object) -> None:
+        _threads.reset(self._before)
 
 
 def allowed() -> int:

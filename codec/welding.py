@@ -113,7 +113,7 @@ def split(surface: Surface, splits: bytes | None, n_vertices: int) -> Split:
     """Which vertex each corner has; raises CorruptError where there are more than n_vertices."""
     found = _unsplit(surface, n_vertices)
     if splits is not None:
-        vertex, more = _kernels.decode_splits(np.frombuffer(splits, np.uint8), *fans(surface))
+        vertex, more = _kernels.decode_splits(splits, *fans(surface))
         found = Split(vertex, found.n_used, more, found.n_isolated - len(more))
     if found.n_isolated < 0:
         raise CorruptError(f"more vertices than the {n_vertices} declared")

@@ -34,6 +34,8 @@ NO_SIZES = (2, 3)
 # The byte of the method is that, plus 32 if positions are listed, plus 64 for each further way to
 # cut polygons.
 N_METHODS, LISTED = 64, 32
+METHODS = {method.value: method for method in Method}
+CUTS = {cut.value: cut for cut in Cut}
 DTYPE_SIZES = (4, 8)
 
 
@@ -193,10 +195,10 @@ def _byte_of(coding: Coding) -> int:
 
 def _coding(byte: int, itemsize: int, lattice: Lattice) -> Coding:
     way, number = divmod(byte & ~LISTED, N_METHODS)
+    if number not in METHODS or way not in CUTS:
+        raise VersionError(f"header: unknown method {byte} of positions")
+    method = METHODS[number]
     in_floats = FLOAT_METHODS[4 if isinstance(lattice, SingleLattice) else itemsize]
-    if number in FLOAT_METHODS.values() and number != in_floats:
+    if method in FLOAT_METHODS.values() and method != in_floats:
         raise CorruptError(f"positions of {itemsize} bytes by method {number}")
-    try:
-        return Coding(Method(number), Cut(way), bool(byte & LISTED))
-    except ValueError:
-        raise VersionError(f"header: unknown method {byte} of positions") from None
+    return Coding(method, CUTS[way], bool(byte & LISTED))

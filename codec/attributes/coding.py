@@ -193,8 +193,7 @@ def _encode(plan: Plan, integers: Integers, items: Items, array: EncodedArray) -
 def _decode(array: EncodedArray, items: Items) -> Integers:
     width = 2 if isinstance(array.plan.lattice, Octahedral) else array.n_components
     known = _known(array.plan, items, array, width)
-    data = np.frombuffer(array.data, np.uint8)
-    return _kernels.decode_attribute(data, **known).reshape(items.n, width)
+    return _kernels.decode_attribute(array.data, **known).reshape(items.n, width)
 
 
 def _known(plan: Plan, items: Items, array: EncodedArray, width: int) -> dict[str, Any]:

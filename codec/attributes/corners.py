@@ -52,9 +52,8 @@ def _encode(
 def _decode(array: EncodedArray, sites: Sites) -> npt.NDArray[Any]:
     wedge, n_wedges = sites.vertex, sites.n_used
     if array.seams:
-        data = np.frombuffer(array.seams, np.uint8)
         with corrupt_at(array.place):
-            wedge, more = _kernels.decode_splits(data, *_fans(sites))
+            wedge, more = _kernels.decode_splits(array.seams, *_fans(sites))
         n_wedges += len(more)
     return coding.decode_array(array, sites.by_wedge(wedge, n_wedges))[wedge]
 

@@ -116,8 +116,7 @@ def _corners(
     element: EncodedElement, offsets: npt.NDArray[np.int64], sites: Sites
 ) -> npt.NDArray[Any]:
     if element.corners is None:
-        data = np.frombuffer(element.links, np.uint8)
-        return _kernels.decode_links(data, *_edges(sites), offsets)
+        return _kernels.decode_links(element.links, *_edges(sites), offsets)
     width = element.corners.shape[0]
     if element.n_corners % width:
         raise CorruptError(f"{element.n_corners} corners by {width}")

@@ -149,7 +149,7 @@ std::vector<Index> Reverse::united_vertices() const {
         const Index a = root(v), b = root(w);
         first[std::max(a, b)] = std::min(a, b);
     }
-    for (Index& v : first) v = first[v];  // ascending: what it refers to is a root
+    for (const auto& [v, w] : same_) first[v] = first[w] = root(v);
     return first;
 }
 
@@ -172,10 +172,10 @@ Connectivity Reverse::numbered(const std::vector<Index>& firsts) {
         meet(3 * firsts[i] + 1);
         for (Index t = firsts[i]; t < end; ++t) meet(3 * t + 2);
     }
+    for (const auto& [v, w] : same_) number[v] = number[w] = number[same_as[v]];
     Index all = 0;
-    for (size_t v = 0; v < number.size(); ++v) all |= number[v] = number[same_as[v]];
+    for (Index& v : vertex_) all |= v = number[v];
     if (all < 0) throw Corrupt("the word joins components");
-    for (Index& v : vertex_) v = number[v];
     // Closed components have no loop left.
     if (firsts.size() > static_cast<size_t>(n_closed_))
         for (Index& h : opposite_) h = std::max(h, none);

@@ -54,7 +54,7 @@ class CostlyWord:
         symbols = np.array([SYMBOLS.index(letter) for letter in reversed(self.symbols)], np.uint8)
         any_model = _kernels.automaton(EQUAL_SHARES, np.zeros(len(SYMBOLS), np.uint16))
         none = np.zeros(0, np.int64)
-        data = np.frombuffer(_kernels.encode_symbols(symbols, none, any_model), np.uint8)
+        data = _kernels.encode_symbols(symbols, none, any_model)
         decoded = _kernels.decode_connectivity(data, len(symbols), 1, 0, none, any_model)
         return decoded[2].reshape(-1, 3)
 

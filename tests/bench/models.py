@@ -50,11 +50,10 @@ def main() -> None:
 def _coders(word: connectivity.EncodedWord, table: Any) -> list[Callable[[], Any]]:
     """Symbols to bytes and nothing else; bytes to symbols and to the triangles that they build."""
     model = connectivity._frozen(table)
-    data = np.frombuffer(word.word, np.uint8)
     sizes = word.counts.n_symbols, word.counts.n_closed, word.counts.n_single
     return [
         lambda: _kernels.encode_symbols(word.symbols, word.specials, model),
-        lambda: _kernels.decode_connectivity(data, *sizes, word.specials, model),
+        lambda: _kernels.decode_connectivity(word.word, *sizes, word.specials, model),
     ]
 
 

@@ -50,7 +50,7 @@ def words(n: int) -> dict[str, Stack]:
 
 def decode(word: str, n_closed: int):
     symbols = np.array(["CLRSE".index(symbol) for symbol in word], np.uint8)
-    data = np.frombuffer(_kernels.encode_symbols(symbols, NO_SPECIALS, MODEL), np.uint8)
+    data = _kernels.encode_symbols(symbols, NO_SPECIALS, MODEL)
     n_single = int(word == "E")
     return symbols, _kernels.decode_connectivity(
         data, len(word), n_closed, n_single, NO_SPECIALS, MODEL

@@ -172,7 +172,7 @@ def labels(point: np.ndarray, rng: np.random.Generator, n_most: int, share: floa
 def check_splits(of: tuple, label: np.ndarray) -> None:
     opposite, _, point, _, n_points = of
     data, vertex, told, label_of = _kernels.encode_splits(*of, label)
-    decoded, more = _kernels.decode_splits(np.frombuffer(data, np.uint8), *of)
+    decoded, more = _kernels.decode_splits(data, *of)
     twin = Splits(data, opposite.tolist(), point.tolist())
     assert decoded.tolist() == vertex.tolist() == twin.decode()
     assert more.tolist() == told.tolist() == twin.more

@@ -26,7 +26,7 @@ def morton(offset: np.ndarray) -> int:
 
 
 def decode(data: bytes, n: int) -> np.ndarray:
-    return _kernels.decode_points(np.frombuffer(data, np.uint8), n).reshape(-1, 3)
+    return _kernels.decode_points(data, n).reshape(-1, 3)
 
 
 @settings(max_examples=200, deadline=None)

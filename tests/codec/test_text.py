@@ -23,16 +23,12 @@ PLY = {
 }
 
 
-def view(data: bytes):
-    return np.frombuffer(data, np.uint8)
-
-
 def encoded(prior: bytes, text: bytes) -> bytes:
-    return _kernels.TextCoder(view(prior)).encode(view(text))
+    return _kernels.TextCoder(prior).encode(text)
 
 
 def decoded(prior: bytes, data: bytes, n: int) -> bytes:
-    return _kernels.TextCoder(view(prior)).decode(view(data), n).tobytes()
+    return _kernels.TextCoder(prior).decode(data, n).tobytes()
 
 
 @settings(deadline=None)

@@ -29,9 +29,16 @@ using InputRows = nb::ndarray<const T, nb::ndim<2>, nb::device::cpu>;
 template <class T>
 using ArrayOfRows = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
 
+// Bytes, which are seen in a fraction of the time that an array takes that is read only.
+using Stream = nb::bytes;
+
 template <class T>
 std::span<const T> view(const Input<T>& array) {
     return {array.data(), array.size()};
+}
+
+inline std::span<const uint8_t> view(const Stream& bytes) {
+    return {static_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
 template <class T>

@@ -29,7 +29,7 @@ nb::bytes encode_attribute(const Input<int32_t>& opposite, const Input<int32_t>&
     return to_bytes(without_gil([&] { return ebz::attributes::encode(items, coding, view(values)); }));
 }
 
-Array<int64_t> decode_attribute(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+Array<int64_t> decode_attribute(const Stream& bytes, const Input<int32_t>& opposite,
                                 const Input<int32_t>& item, const Input<int32_t>& offsets, int32_t n, size_t n_components,
                                 const Input<double>& points, const Input<int32_t>& site,
                                 const Input<double>& guess, int method, int space, int relation, double total,

@@ -13,7 +13,7 @@ nb::bytes encode_links(const Input<int32_t>& vertex, const Input<int32_t>& face_
     return to_bytes(without_gil([&] { return ebz::elements::encode_links(mesh, view(offsets), view(corners)); }));
 }
 
-Array<int32_t> decode_links(const Input<uint8_t>& bytes, const Input<int32_t>& vertex, const Input<int32_t>& face_offsets,
+Array<int32_t> decode_links(const Stream& bytes, const Input<int32_t>& vertex, const Input<int32_t>& face_offsets,
                             const Input<double>& points, const Input<int64_t>& offsets) {
     const ebz::elements::Mesh mesh{view(vertex), view(face_offsets), view(points), static_cast<int32_t>(points.size() / 3)};
     return to_numpy(without_gil([&] { return ebz::elements::decode_links(view(bytes), mesh, view(offsets)); }));

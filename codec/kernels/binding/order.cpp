@@ -21,7 +21,7 @@ nb::bytes encode_vertex_order(const Input<int32_t>& opposite, const Input<int32_
         without_gil([&] { return ebz::order::encode_vertex_order(known, {view(visits)}, uniform, view(source)); }));
 }
 
-Array<int32_t> decode_vertex_order(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+Array<int32_t> decode_vertex_order(const Stream& bytes, const Input<int32_t>& opposite,
                                    const Input<int32_t>& vertex, const Input<int64_t>& positions,
                                    const Input<int32_t>& visits, bool uniform) {
     const ebz::order::Geometry known = geometry(opposite, vertex, positions);
@@ -50,7 +50,7 @@ nb::bytes encode_face_order(const Input<int32_t>& offsets, const Input<int32_t>&
     }));
 }
 
-Array<int32_t> decode_face_order(const Input<uint8_t>& bytes, const Input<int32_t>& offsets,
+Array<int32_t> decode_face_order(const Stream& bytes, const Input<int32_t>& offsets,
                                  const Input<int32_t>& opposite, const Input<int32_t>& vertex,
                                  const Input<int64_t>& positions, const Input<int32_t>& vertex_source,
                                  bool uniform) {
@@ -68,7 +68,7 @@ nb::bytes encode_rotations(const Input<int32_t>& offsets, const Input<int32_t>& 
     }));
 }
 
-Array<int32_t> decode_rotations(const Input<uint8_t>& bytes, const Input<int32_t>& offsets,
+Array<int32_t> decode_rotations(const Stream& bytes, const Input<int32_t>& offsets,
                                 const Input<int32_t>& opposite, const Input<int32_t>& vertex,
                                 const Input<int64_t>& positions, const Input<int32_t>& face_source,
                                 const Input<int32_t>& vertex_source, bool uniform) {

@@ -30,7 +30,7 @@ nb::bytes encode_polygon_word(const Input<uint8_t>& symbols, const Input<uint8_t
     }));
 }
 
-std::tuple<WordArrays, Array<int64_t>, Array<uint8_t>> decode_polygon_word(const Input<uint8_t>& bytes,
+std::tuple<WordArrays, Array<int64_t>, Array<uint8_t>> decode_polygon_word(const Stream& bytes,
                                                                            int64_t n_symbols, int64_t n_closed,
                                                                            int64_t n_single, int64_t n_specials,
                                                                            int effort) {

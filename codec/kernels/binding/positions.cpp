@@ -23,7 +23,7 @@ nb::bytes encode_positions(const Input<int32_t>& opposite, const Input<int32_t>&
     }));
 }
 
-Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+Array<int64_t> decode_positions(const Stream& bytes, const Input<int32_t>& opposite,
                                 const Input<int32_t>& vertex, int32_t n_vertices, int method) {
     const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
     return to_numpy(without_gil([&] {
@@ -35,7 +35,7 @@ Array<int64_t> decode_positions(const Input<uint8_t>& bytes, const Input<int32_t
 
 // The memory of the coder itself: a position begins each of its rows.
 template <class Row, void (*decode)(std::span<const uint8_t>, const ebz::positions::Surface&, std::span<Row>)>
-ArrayOfRows<int32_t> decode_positions_in_place(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+ArrayOfRows<int32_t> decode_positions_in_place(const Stream& bytes, const Input<int32_t>& opposite,
                                                const Input<int32_t>& vertex, int32_t n_vertices) {
     const ebz::positions::Surface surface{view(opposite), view(vertex), n_vertices};
     const auto n = static_cast<size_t>(n_vertices);
@@ -51,7 +51,7 @@ std::tuple<nb::bytes, Array<int32_t>> encode_points(const Input<int64_t>& values
     return {to_bytes(encoded.bytes), to_numpy(std::move(encoded.order))};
 }
 
-Array<int64_t> decode_points(const Input<uint8_t>& bytes, int32_t n) {
+Array<int64_t> decode_points(const Stream& bytes, int32_t n) {
     return to_numpy(without_gil([&] { return ebz::points::decode(view(bytes), static_cast<size_t>(n)); }));
 }
 

@@ -18,7 +18,7 @@ nb::bytes encode_gluing(const Input<int32_t>& opposite, const Input<int32_t>& ve
     }));
 }
 
-Array<int32_t> decode_gluing(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+Array<int32_t> decode_gluing(const Stream& bytes, const Input<int32_t>& opposite,
                              const Input<int32_t>& vertex, int32_t n_vertices, int32_t n_copies) {
     return to_numpy(without_gil([&] {
         return ebz::decode_gluing(view(bytes), {view(opposite), view(vertex), n_vertices, n_copies});
@@ -43,7 +43,7 @@ std::tuple<nb::bytes, Array<int32_t>, Array<int32_t>, Array<int32_t>> encode_spl
             to_numpy(std::move(encoded.splits.point)), to_numpy(std::move(encoded.label))};
 }
 
-std::tuple<Array<int32_t>, Array<int32_t>> decode_splits(const Input<uint8_t>& bytes, const Input<int32_t>& opposite,
+std::tuple<Array<int32_t>, Array<int32_t>> decode_splits(const Stream& bytes, const Input<int32_t>& opposite,
                                                          const Input<int32_t>& fan, const Input<int32_t>& point,
                                                          const Input<int32_t>& point_of_fan, int32_t n_points) {
     ebz::Splits decoded = without_gil(

@@ -37,7 +37,7 @@ nb::bytes encode_symbols(const Input<uint8_t>& symbols, const Input<int64_t>& sp
 }
 
 template <class Model>
-WordArrays decode_connectivity(const Input<uint8_t>& bytes, int64_t n_symbols, int64_t n_closed,
+WordArrays decode_connectivity(const Stream& bytes, int64_t n_symbols, int64_t n_closed,
                                int64_t n_single, const Input<int64_t>& specials, const Model& model) {
     const ebz::WordHeader header = word_header(n_symbols, n_closed, n_single);
     return word_arrays(without_gil(
@@ -53,7 +53,7 @@ nb::bytes encode_adaptive(const Input<uint8_t>& symbols, int64_t n_closed, int64
     }));
 }
 
-std::tuple<WordArrays, Array<int64_t>> decode_adaptive(const Input<uint8_t>& bytes, int64_t n_symbols,
+std::tuple<WordArrays, Array<int64_t>> decode_adaptive(const Stream& bytes, int64_t n_symbols,
                                                        int64_t n_closed, int64_t n_single, int64_t n_specials,
                                                        int effort) {
     const ebz::WordHeader header = word_header(n_symbols, n_closed, n_single);
