@@ -1,4 +1,4 @@
-"""Vertices of one position: cheap to tell apart along seams, in linear time where there are many."""
+"""Vertices of one position: cheap to tell apart along seams, linear time where there are many."""
 
 import numpy as np
 
