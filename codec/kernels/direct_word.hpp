@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -26,7 +27,7 @@ public:
     using History = uint32_t;  // the context of the next symbol
     static constexpr bool has_excesses = false;
 
-    explicit DirectRows(Index) : DirectRows(initial()) {}
+    explicit DirectRows(std::span<const uint8_t>) : DirectRows(initial()) {}
 
     // latest: symbols, of which the latest two count.
     static uint32_t context(uint32_t degree, uint32_t latest) { return degree << 6 | (latest & 63); }
@@ -35,8 +36,10 @@ public:
 
     Row& next(const Reverse&, History context) { return rows_[context]; }
 
-    // degree: of the gate's left end after the symbol.
-    static History after(History context, Symbol symbol, uint8_t degree) { return DirectRows::context(degree, context << 3 | (symbol + 1u)); }
+    // degree: of the gate's left end after the symbol, the latest.
+    static History after(History context, Index, Symbol symbol, uint8_t degree) {
+        return DirectRows::context(degree, context << 3 | (symbol + 1u));
+    }
 
     // Before the first symbol.
     static const DirectRows& initial() {
@@ -133,7 +136,7 @@ public:
           symbols_(symbols.data()),
           reverse_(header.n_symbols, header.n_closed, header.n_single),
           specials_(n_specials, header.n_symbols, specials),
-          model_(header.n_symbols) {}
+          model_(symbols) {}
 
     // Runs the reverse construction and codes what that does not determine.
     Reverse run() {
@@ -159,7 +162,7 @@ private:
         if (Coder::encoding && symbols_[position] != symbol) throw Corrupt("no word of Edgebreaker's");
         symbols_[position] = symbol;
         const uint8_t degree = reverse_.template apply<Model::has_excesses>(symbol, meets);
-        return Model::after(history, symbol, degree);
+        return model_.after(history, position, symbol, degree);
     }
 
     int64_t special(Index position) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,7 +18,9 @@ class MatchModel {
 public:
     // A context of n_context symbols (at most 21) is looked up.
     explicit MatchModel(int n_context, Index n_symbols)
-        : n_context_(n_context), n_symbols_(n_symbols), latest_(size_t{1} << n_bits) {}
+        : n_context_(n_context), n_symbols_(n_symbols),
+          shift_(64 - std::clamp(static_cast<int>(std::bit_width(static_cast<uint32_t>(n_symbols))), 8, 14)),
+          latest_(size_t{1} << (64 - shift_)) {}
 
     static constexpr uint32_t no_symbol = n_symbols;
 
@@ -37,8 +40,8 @@ public:
         }
         const uint64_t key = recent & ((uint64_t{1} << (3 * n_context_)) - 1);
         const uint64_t hash = key * 0x9E3779B97F4A7C15u;
-        Place& latest = latest_[hash >> (64 - n_bits)];
-        const auto check = static_cast<uint32_t>(hash >> (32 - n_bits));
+        Place& latest = latest_[hash >> shift_];
+        const auto check = static_cast<uint32_t>(hash >> (shift_ - 32));
         if (length_ == 0 && latest.check == check) start(symbols, position, latest.after);
         latest = {position - 1, check};
         // A match that ran into the present has no symbol to offer yet.
@@ -47,7 +50,7 @@ public:
     }
 
 private:
-    static constexpr int n_bits = 14, max_length = 512, max_start = 32;
+    static constexpr int max_length = 512, max_start = 32;
 
     struct Place {
         Index after = none;  // the position after the context
@@ -73,6 +76,7 @@ private:
 
     int n_context_;
     Index n_symbols_;
+    int shift_;
     std::vector<Place> latest_;  // by hash of the context
     Index at_ = none;            // of the symbol predicted
     int length_ = 0;

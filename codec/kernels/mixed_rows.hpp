@@ -6,12 +6,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
 
 #include "direct_word.hpp"
+#include "match_model.hpp"
 #include "positions/mixing_weights.hpp"
 #include "word_contexts.hpp"
 #include "word_view.hpp"
@@ -25,7 +27,34 @@ struct alignas(16) WordRow {
     static constexpr uint16_t last_count = INT16_MAX, first_count = last_count - 255;
 
     std::array<uint16_t, 8> starts{};
+
+    // False if the row was not of the context with this check, and now starts as the first one is.
+    bool claim(uint16_t of, const WordRow& first);
 };
+
+// What is neither counter nor check.
+inline constexpr WordRow inner_starts{{0, 0xffff, 0xffff, 0xffff, 0xffff}};
+
+#ifdef __SSE2__
+inline __m128i vector(const WordRow& row) { return _mm_load_si128(reinterpret_cast<const __m128i*>(row.starts.data())); }
+inline void store(WordRow& row, __m128i starts) { _mm_store_si128(reinterpret_cast<__m128i*>(row.starts.data()), starts); }
+
+// Stored at once, as the next load of the row would wait for parts.
+inline bool WordRow::claim(uint16_t of, const WordRow& first) {
+    if (starts[check] == of) return true;
+    const __m128i others = _mm_insert_epi16(_mm_cvtsi32_si128(first_count), of, check);
+    store(*this, _mm_or_si128(_mm_and_si128(vector(first), vector(inner_starts)), others));
+    return false;
+}
+#else
+inline bool WordRow::claim(uint16_t of, const WordRow& first) {
+    if (starts[check] == of) return true;
+    starts = first.starts;
+    starts[counter] = first_count;
+    starts[check] = of;
+    return false;
+}
+#endif
 
 // A mean of rows, which teaches them.
 class WordMix {
@@ -46,8 +75,7 @@ public:
             const __m128i share = _mm_set1_epi16(static_cast<int16_t>(shares[i]));
             sum = _mm_add_epi16(sum, _mm_mulhi_epu16(vector(*rows[i]), share));
         }
-        sum = _mm_or_si128(_mm_and_si128(sum, vector(inner)), vector(end));
-        _mm_store_si128(reinterpret_cast<__m128i*>(mean_.starts.data()), sum);
+        store(mean_, _mm_or_si128(_mm_and_si128(sum, vector(inner_starts)), vector(end)));
 #else
         for (size_t k = 1; k < n_symbols; ++k) {
             uint32_t sum = 0;
@@ -87,20 +115,16 @@ private:
                 table[s].starts[i] = static_cast<uint16_t>(least_frequency * i + (i > s ? total - least_frequency * n_symbols : 0));
         return table;
     }();
-    // What is neither counter nor check, one in place of the counter, the end of the last symbol.
-    static constexpr WordRow inner{{0, 0xffff, 0xffff, 0xffff, 0xffff}}, one{{1}}, end{{0, 0, 0, 0, 0, total}};
-
-#ifdef __SSE2__
-    static __m128i vector(const WordRow& row) { return _mm_load_si128(reinterpret_cast<const __m128i*>(row.starts.data())); }
-#endif
+    // In place of the counter, and as the end of the last symbol.
+    static constexpr WordRow one{{1}}, end{{0, 0, 0, 0, 0, total}};
 
     static void learn(WordRow& row, uint32_t symbol) {
         const int rate = rates[static_cast<size_t>(row.starts[WordRow::counter] - WordRow::first_count)];
 #ifdef __SSE2__
         const __m128i old = vector(row), change = _mm_sra_epi16(_mm_sub_epi16(vector(targets[symbol]), old), _mm_cvtsi32_si128(rate));
         // The counter saturates where it ends.
-        const __m128i moved = _mm_adds_epi16(_mm_add_epi16(old, _mm_and_si128(change, vector(inner))), vector(one));
-        _mm_store_si128(reinterpret_cast<__m128i*>(row.starts.data()), moved);
+        const __m128i moved = _mm_adds_epi16(_mm_add_epi16(old, _mm_and_si128(change, vector(inner_starts))), vector(one));
+        store(row, moved);
 #else
         for (size_t i = 1; i < n_symbols; ++i)
             row.starts[i] = static_cast<uint16_t>(row.starts[i] + ((targets[symbol].starts[i] - row.starts[i]) >> rate));
@@ -114,18 +138,16 @@ private:
     WordRow mean_;
 };
 
-// The first context is that of DirectRows, from which rows of the others start.
+// By context: that of DirectRows, from which rows of the others start, what a match predicts, and two by hash.
 class MixedRows {
 public:
-    // The symbols so far, and the degree of the gate's left end.
-    struct History {
-        WordHistory symbols;
-        uint8_t degree = 0;
-    };
+    struct History {};  // kept in the model
     static constexpr bool has_excesses = true;
 
-    explicit MixedRows(Index word_size)
-        : n_bits_(std::clamp<int>(std::bit_width(static_cast<uint32_t>(word_size)) - 2, 8, 13)), others_(n_others << n_bits_) {
+    // symbols: of the word, as far as they are known.
+    explicit MixedRows(std::span<const uint8_t> symbols)
+        : symbols_(symbols), match_(20, static_cast<Index>(symbols.size())),
+          n_bits_(std::clamp(static_cast<int>(std::bit_width(symbols.size())) - 2, 8, 13)), hashed_(n_hashed << n_bits_) {
         const DirectRows& prior = DirectRows::initial();
         for (uint32_t c = 0; c < first_.size(); ++c) {
             for (uint32_t i = 1; i < n_symbols; ++i) first_[c].starts[i] = prior.at(c).start(i);
@@ -133,46 +155,45 @@ public:
         }
     }
 
-    WordMix& next(const Reverse& reverse, const History& past) {
+    WordMix& next(const Reverse& reverse, History) {
         const LoopEdge& gate = reverse.edge(reverse.gate());
-        const uint32_t l0 = past.degree, l1 = reverse.edge(gate.previous).degree, r0 = reverse.edge(gate.next).degree;
-        const WordHistory& symbols = past.symbols;
-        const std::array<uint32_t, n_others> hashes = {context_hash(0, symbols.latest(6), pack(l0, r0)),
-                                                       context_hash(1, symbols.latest(10), pack(symbols.closed_degrees(4), l0)),
-                                                       context_hash(2, pack(l0, l1, gate.excess, r0), symbols.closed_degrees(2))};
-        std::array<WordRow*, WordMix::n_rows> rows;
-        rows[0] = &first_[DirectRows::context(l0, symbols.latest(2))];
-        size_t known = 0;
-        for (size_t i = 0; i < n_others; ++i) {
-            rows[i + 1] = &others_[i << n_bits_ | hashes[i] >> (32 - n_bits_)];
-            known |= size_t{find(*rows[i + 1], static_cast<uint16_t>(hashes[i] | 1), *rows[0])} << i;
+        const uint32_t l0 = degree_, l1 = reverse.edge(gate.previous).degree, r0 = reverse.edge(gate.next).degree;
+        const std::array<uint32_t, n_hashed> hashes = {context_hash(0, past_.latest(8), pack(past_.closed_degrees(3), l0)),
+                                                       context_hash(1, pack(l0, l1, gate.excess, r0), past_.closed_degrees(2))};
+        WordRow& first = first_[DirectRows::context(l0, past_.latest(2))];
+        WordRow& matched = matched_[(match_.predicted() << 3 | match_.confidence()) << 4 | l0];
+        std::array<WordRow*, WordMix::n_rows> rows = {&first, &matched};
+        matched.claim(1, first);
+        size_t known = match_.confidence();
+        for (size_t i = 0; i < n_hashed; ++i) {
+            WordRow& row = hashed_[i << n_bits_ | hashes[i] >> (32 - n_bits_)];
+            known = known << 1 | size_t{row.claim(static_cast<uint16_t>(hashes[i] | 1), first)};
+            rows[2 + i] = &row;
         }
         mix_.mix(rows, weights_[known]);
         return mix_;
     }
 
-    static History after(History past, Symbol symbol, uint8_t degree) {
-        past.symbols.advance(symbol, past.degree);
-        past.degree = degree;
-        return past;
+    // After the symbol at the position.
+    History after(History, Index position, Symbol symbol, uint8_t degree) {
+        past_.advance(symbol, degree_);
+        degree_ = degree;
+        match_.advance(symbols_, position, past_.recent());
+        return {};
     }
 
 private:
-    static constexpr size_t n_others = WordMix::n_rows - 1;
+    static constexpr size_t n_hashed = 2;
 
-    // False if the context was not known.
-    static bool find(WordRow& row, uint16_t check, const WordRow& first) {
-        if (row.starts[WordRow::check] == check) return true;
-        row = first;
-        row.starts[WordRow::counter] = WordRow::first_count;
-        row.starts[WordRow::check] = check;
-        return false;
-    }
-
+    std::span<const uint8_t> symbols_;
+    WordHistory past_;
+    uint8_t degree_ = 0;  // of the gate's left end
+    MatchModel match_;
     int n_bits_;
     std::array<WordRow, (max_degree + 1) * 64> first_;
-    std::vector<WordRow> others_;
-    std::array<WordMix::Weights, 1 << n_others> weights_;  // by which contexts were known
+    std::array<WordRow, (n_symbols + 1) * 8 * (max_degree + 1)> matched_;
+    std::vector<WordRow> hashed_;
+    std::array<WordMix::Weights, 8 << n_hashed> weights_;  // by the confidence of the match, and which contexts were known
     WordMix mix_;
 };
 
