@@ -8,13 +8,14 @@ from hypothesis import strategies as st
 import ebz
 from ebz.codec import _kernels, connectivity, pipeline, welding
 from ebz.codec.integers import decode_columns, encode_columns, zigzag
+from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
-from ebz.codec.sample import random_triangulation
+from ebz.codec.sample import grid, random_triangulation, sphere
 from ebz.formats import ebz_file
 from tests import surgery
 from tests.meshes import face_lists, meshes, rngs, surfaces
-from tests.oracles import integers, reverse, specials
+from tests.oracles import fast_word, integers, reverse, specials
 from tests.oracles.gluing import Gluing
 from tests.oracles.range_coder import Decoder, Encoder
 from tests.oracles.splits import Splits
@@ -180,3 +181,30 @@ def check_splits(of: tuple, label: np.ndarray) -> None:
     pairs = np.unique(np.stack([vertex, label]), axis=1)
     assert np.array_equal(pairs[0], np.arange(n_points + len(more)))
     assert len(np.unique(pairs[1])) == pairs.shape[1]
+
+
+def check_adaptive_word(faces: surgery.Faces, effort: Effort) -> None:
+    """Those with special S are left out."""
+    word, _, _ = connectivity.encode(faces, n_used(faces), [effort])
+    counts = word.counts
+    if counts.n_specials == 0:
+        is_fast = effort == Effort.FAST
+        symbols = fast_word.decode(word.word, counts.n_symbols, counts.n_single, fast=is_fast)
+        assert symbols[::-1] == word.symbols.tolist()
+
+
+@settings(max_examples=60, deadline=None)
+@given(face_lists(), st.sampled_from([Effort.DIRECT, Effort.FAST]))
+def test_words_in_one_step_a_symbol_are_decoded_alike(faces, effort):
+    check_adaptive_word(faces, effort)
+
+
+@pytest.mark.parametrize("effort", [Effort.DIRECT, Effort.FAST])
+@pytest.mark.parametrize(
+    "mesh",
+    [random_triangulation(1000, 3), sphere(3000), grid(3000)],
+    ids=["random", "sphere", "grid"],
+)
+def test_long_words_in_one_step_a_symbol_are_decoded_alike(mesh, effort):
+    assert connectivity.encode(mesh.faces, len(mesh.vertices), [effort])[0].counts.n_specials == 0
+    check_adaptive_word(mesh.faces, effort)

@@ -18,7 +18,7 @@ inline namespace EBZ_INSTRUCTIONS {
 
 class LightModel {
 public:
-    static constexpr size_t n_contexts = SymbolMixer::n_rows, n_values = 1024, n_sets = 15;
+    static constexpr size_t n_contexts = SymbolMixer::n_rows, n_values = 756, n_sets = 15;
     using Contexts = std::array<size_t, n_contexts>;  // < n_values
 
     template <class Coder>
