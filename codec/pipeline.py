@@ -15,7 +15,11 @@ from ebz.codec.attributes import coding, corners, rows
 from ebz.codec.attributes.coding import EXACT
 from ebz.codec.attributes.items import Sites
 from ebz.codec.attributes.plan import Effort
-from ebz.codec.attributes.precision import AttributePrecision, is_name_of_normal
+from ebz.codec.attributes.precision import (
+    AttributePrecision,
+    is_name_of_colour,
+    is_name_of_normal,
+)
 from ebz.codec.attributes.rounding import rounded
 from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
@@ -41,10 +45,18 @@ class Decoded(NamedTuple):
     surface: Surface
 
 
-def keeps_rotation(face_attributes: Attributes) -> bool:
-    """Whether the first corner of a face matters: several values may stand for its corners."""
+def keeps_rotation(mesh: Mesh) -> bool:
+    """Whether the first corner of a face matters: several values may stand for its corners.
+
+    They are not as many where all faces have as many; normals and colours are of the whole face.
+    """
+    sizes = np.unique(np.diff(mesh.offsets)) if mesh.face_attributes else np.zeros(0)
+    n_corners = int(sizes[0]) if len(sizes) == 1 else 1
     return any(
-        values.ndim > 1 and not is_name_of_normal(name) for name, values in face_attributes.items()
+        values.ndim > 1
+        and values.shape[1] % max(n_corners, 1) == 0
+        and not (is_name_of_normal(name) or is_name_of_colour(name))
+        for name, values in mesh.face_attributes.items()
     )
 
 
@@ -88,7 +100,7 @@ def encode(
     coded = positions.encode(surface, points, n_along, stored.dtype, position_method(level))
     exact = mesh.vertices[arrangement.sites[points.exceptions // 3], points.exceptions % 3]
     report("attributes", 3, N_STAGES)
-    keep_rotation = keeps_rotation(mesh.face_attributes)
+    keep_rotation = keeps_rotation(mesh)
     split = arrangement.split
     kept = source_order.kept(
         order, surface.polygons, keep_order=keep_order, keep_rotation=keep_rotation

@@ -42,6 +42,11 @@ def is_name_of_normal(name: str) -> bool:
     return "normal" in name.lower() or name in ("nx", "ny", "nz")
 
 
+def is_name_of_colour(name: str) -> bool:
+    """Whether an attribute of this name holds colours."""
+    return name in ("rgb", "rgba") or "color" in name.lower() or "colour" in name.lower()
+
+
 def _directions(bits: int | None, error: float | None) -> int:
     """Bits of directions that are as precise as was asked, or as precise as can be."""
     if bits is not None:

@@ -77,3 +77,20 @@ def test_normals_of_faces_cost_little_whatever_their_length(dtype):
         assert len(array.data) < mesh.n_faces / 2
         assert encoded.streams.order.rotations is None
         assert ebz.verify(ebz.compress(carrying), carrying).equal
+
+
+@pytest.mark.parametrize(
+    ("name", "width", "is_kept"),
+    [("x", 3, True), ("x", 6, True), ("x", 2, False), ("x", 4, False), ("Colors", 3, False),
+     ("rgb", 3, False), ("normal", 3, False)],
+)  # fmt: skip
+def test_rotations_are_kept_where_values_may_stand_for_corners(name, width, is_kept):
+    mesh = shuffled(torus(400))
+    turns = np.random.default_rng(3).integers(0, 3, (mesh.n_faces, 1))
+    faces = np.take_along_axis(mesh.faces, (np.arange(3) + turns) % 3, axis=1)
+    values = np.random.default_rng(4).random((mesh.n_faces, width))
+    carrying = ebz.Mesh(mesh.vertices, faces, face_attributes={name: values})
+    data = ebz.compress(carrying)
+    assert ("rotations" in [s.name for s in ebz.stats(data).streams]) == is_kept
+    assert ebz.verify(data, carrying).equal
+    assert ebz.compress(ebz.decompress(data)) == data
