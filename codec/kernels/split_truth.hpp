@@ -78,4 +78,11 @@ private:
     std::vector<uint64_t> gaps_;       // whole fans before each cut one, of those that no cut reaches from an earlier fan
 };
 
+// What an encoder asks for; a decoder does not.
+template <class Coder, class Ask>
+auto known(Ask ask) {
+    if constexpr (Coder::encoding) return ask();
+    else return decltype(ask()){};
+}
+
 }  // namespace ebz
