@@ -1,13 +1,14 @@
 """Chunks: a type, a length, a payload and a checksum over all three."""
 
-import zlib
 from collections.abc import Iterator
 from typing import NamedTuple
+
+import xxhash
 
 from ebz.codec.errors import CorruptError, NotEbzError, TruncatedError, VersionError
 from ebz.formats import layout
 
-CRC_SIZE = 4
+CHECKSUM_SIZE = 4
 
 
 class Chunk(NamedTuple):
@@ -25,7 +26,12 @@ class Chunk(NamedTuple):
 def write(kind: bytes, payload: bytes) -> bytes:
     """The bytes of one chunk."""
     body = kind + layout.varint(len(payload)) + payload
-    return body + zlib.crc32(body).to_bytes(CRC_SIZE, "little")
+    return body + checksum(body)
+
+
+def checksum(body: bytes | memoryview) -> bytes:
+    """That of type, length and payload."""
+    return (xxhash.xxh3_64_intdigest(body) & 0xFFFFFFFF).to_bytes(CHECKSUM_SIZE, "little")
 
 
 def start() -> bytes:
@@ -76,13 +82,13 @@ def _read_one(data: memoryview, offset: int) -> Chunk:
         raise TruncatedError(f"the file ends at byte {len(data)}, within a chunk head") from None
     start = offset + 1 + size
     end = start + length
-    if end + CRC_SIZE > len(data):
-        missing = end + CRC_SIZE - len(data)
+    if end + CHECKSUM_SIZE > len(data):
+        missing = end + CHECKSUM_SIZE - len(data)
         name = kind.decode("latin-1")
         raise TruncatedError(
             f"chunk {name!r} at offset {offset}: the file ends {missing} bytes too early"
         )
-    chunk = Chunk(kind, bytes(data[start:end]), offset, end + CRC_SIZE - offset)
-    if zlib.crc32(data[offset:end]) != int.from_bytes(data[end : end + CRC_SIZE], "little"):
+    chunk = Chunk(kind, bytes(data[start:end]), offset, end + CHECKSUM_SIZE - offset)
+    if data[end : end + CHECKSUM_SIZE] != checksum(data[offset:end]):
         raise CorruptError(f"{chunk}: checksum mismatch")
     return chunk
