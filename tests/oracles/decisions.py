@@ -57,7 +57,7 @@ def learnt(counter: tuple[int, int], bit: bool, start: int, *, alone: bool) -> t
     off = (F(4194303) if bit else F(0)) - old
     count = F(n) + F(1.6)
     new = old + (off * (F(1) / count) if alone else off / count)
-    return int(new), min(n + 1, 31)
+    return int(new), min(n + 1, 90)
 
 
 def opinion(counter: tuple[int, int]) -> np.float32:

@@ -21,7 +21,7 @@ public:
     static constexpr size_t n_slots = 24;
 
     explicit ContextCounters(size_t n_vertices)
-        : log2_lines_(std::clamp(static_cast<int>(std::bit_width(n_vertices)), 9, 13)), lines_(n << log2_lines_) {}
+        : log2_lines_(std::clamp(static_cast<int>(std::bit_width(n_vertices)) - 1, 9, 12)), lines_(n << log2_lines_) {}
 
     // Ahead of start(), so that the lines are there by then.
     void find(const Expectation& x) {

@@ -11,12 +11,12 @@
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
 
-// The probability of a 1 in the upper 22 bits, the count, at most 31, in the lower 10.
+// The probability of a 1 in the upper 22 bits, the count, at most 90, in the lower 10.
 using CounterState = uint32_t;
 
 namespace counter {
 
-inline constexpr int32_t max_n = 31;
+inline constexpr int32_t max_n = 90;
 inline constexpr CounterState unseen = 1u << 31;
 
 // Several counters at a time.
