@@ -22,7 +22,7 @@ def word_effort(level: int) -> Effort:
 
 
 def word_models(level: int) -> list[WordModel]:
-    """The models of which the one with the shortest word is kept; the first where they tie."""
+    """The first is kept, or the other where that makes the word shorter: see connectivity."""
     return [word_effort(level), default_table()]
 
 
@@ -49,5 +49,5 @@ def attribute_effort(level: int) -> AttributeEffort:
 
 
 def guaranteed_by(model: WordModel) -> AnyTable:
-    """The table whose certificate bounds a word: adaptive models are kept where shorter."""
+    """The table whose certificate bounds a word: adaptive models are kept where that holds."""
     return model if isinstance(model, AnyTable) else default_table()
