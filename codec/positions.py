@@ -36,6 +36,10 @@ FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 NEXT = {Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
 MAX_FEW = 1024
 
+# Where the light method takes fewer bits a point, the first of these is tried too: strong on regular
+# grids, medium on sheets that are as smooth.
+OTHERS = {Method.STRONG: 1, Method.MEDIUM: 2}
+
 # Those that are tried; of the other methods the first.
 CUTS = {Method.LIGHT: (Cut.COMPLETING, Cut.TWICE), Method.STRONG: tuple(Cut)}
 MAX_TWICE = (2**31 - 1) // 6  # triangles of which half-edges of twice as many have 31 bits
@@ -112,15 +116,19 @@ def _first(surface: Surface, values: Integers, methods: Sequence[Method]) -> Cod
 
 
 def _at_last(surface: Surface, values: Integers, first: Coded) -> Coded:
-    """What is regular is coded by the strong method too, which may take far less."""
-    if not _is_regular(first, len(values)):
-        return first
-    return min([first, *_each(surface, values, [Method.STRONG])], key=_size)
+    """What is smooth or regular is coded by another method too, which may take far less."""
+    other = next((x for x, bits in OTHERS.items() if _takes_less(first, bits, len(values))), None)
+    tried = [] if other is None else _each(surface, values, [other])
+    return min([first, *(coded for coded in tried if coded.data)], key=_size)
 
 
 def _is_regular(coded: Coded, n: int) -> bool:
-    """Whether the light method takes less than a bit a point, as it does on regular grids."""
-    return coded.coding.method == Method.LIGHT and 8 * len(coded.data) < n
+    return _takes_less(coded, OTHERS[Method.STRONG], n)
+
+
+def _takes_less(coded: Coded, bits: int, n: int) -> bool:
+    """Whether the light method takes less than so many bits a point."""
+    return coded.coding.method == Method.LIGHT and 8 * len(coded.data) < bits * n
 
 
 def _each(surface: Surface, values: Integers, methods: Sequence[Method]) -> list[Coded]:
