@@ -36,8 +36,8 @@ FLOAT_METHODS = {4: Method.FLOAT32, 8: Method.FLOAT64}
 NEXT = {Method.MEDIUM: Method.LIGHT, Method.LIGHT: Method.STRONG}
 MAX_FEW = 1024
 
-# Where the light method takes fewer bits a point, the first of these is tried too: strong on regular
-# grids, medium on sheets that are as smooth.
+# Where the light method takes fewer bits a point, the first of these is tried too: strong on
+# regular grids, medium on sheets that are as smooth.
 OTHERS = {Method.STRONG: 1, Method.MEDIUM: 2}
 
 # Those that are tried; of the other methods the first.
