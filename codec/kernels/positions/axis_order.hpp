@@ -90,8 +90,13 @@ inline std::vector<AxisOrder> axis_orders(const Surface& mesh, std::span<const i
         if (repeats[d] > repeats[last]) last = d;
     // Places that come again by chance would do so four times as often without the lowest bits; others as often.
     const size_t most = repeats[last];
-    if (most * 12 >= n && 16 * most >= n + 4 * n_repeated_places(values, last, 1)) return {AxisOrder{last}};
-    const bool is_alike = n_repeated_shapes(mesh, values) * 15 >= 2 * mesh.vertex.size();
+    bool is_alike = false;
+    if (most * 64 >= n) {
+        const size_t roughly = n_repeated_places(values, last, 1);
+        if (most * 12 >= n && 16 * most >= n + 4 * roughly) return {AxisOrder{last}};
+        is_alike = 2 * roughly < 3 * most;
+    }
+    is_alike = is_alike || n_repeated_shapes(mesh, values) * 15 >= 2 * mesh.vertex.size();
     return is_alike ? std::vector{AxisOrder{}, AxisOrder{last}} : std::vector{AxisOrder{}};
 }
 
