@@ -21,8 +21,8 @@ from ebz.codec.pipeline import Progress
 from ebz.codec.scene import Scene
 from ebz.codec.scenes import Encoded
 from ebz.codec.threads import using as run_on
-from ebz.formats import ebz_file
-from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+from ebz.formats.ebz import file
+from ebz.formats.ebz.limits import DEFAULT_MEMORY_LIMIT
 from ebz.options import Grid
 
 BytesLike = bytes | bytearray | memoryview
@@ -146,7 +146,7 @@ def compress(
             keep_order=keep_order,
             progress=options.progress(progress),
         )
-    data = ebz_file.write(encoded, embed_model=embed_model or _is_file(model))
+    data = file.write(encoded, embed_model=embed_model or _is_file(model))
     if not return_permutation:
         return data
     permutations = [_permutation(order, keep_order) for order in orders]
@@ -173,7 +173,7 @@ def decompress(
 def parse(data: BytesLike, memory_limit: int) -> Encoded:
     """The structure of an .ebz file, its declared sizes checked."""
     limit = options.memory_limit(memory_limit)
-    return ebz_file.read(options.as_bytes(data), memory_limit=limit)
+    return file.read(options.as_bytes(data), memory_limit=limit)
 
 
 def load_model(model: str | os.PathLike[str] | AnyTable | None) -> AnyTable:

@@ -8,7 +8,7 @@ from ebz.codec.errors import EbzError, OptionError
 from ebz.codec.mesh import Mesh
 from ebz.codec.scene import Scene
 from ebz.formats import meshes
-from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+from ebz.formats.ebz.limits import DEFAULT_MEMORY_LIMIT
 from ebz.options import content
 
 EBZ = "ebz"

@@ -17,8 +17,8 @@ from ebz.codec.scene import Scene, in_part
 from ebz.codec.scene_statistics import SceneStats
 from ebz.codec.statistics import Stats
 from ebz.coding import BytesLike, compress, parse
-from ebz.formats import ebz_file
-from ebz.formats.limits import DEFAULT_MEMORY_LIMIT
+from ebz.formats.ebz import file
+from ebz.formats.ebz.limits import DEFAULT_MEMORY_LIMIT
 from ebz.options import as_bytes, content
 
 
@@ -31,7 +31,7 @@ def stats(
     """
     view = as_bytes(compress(data) if isinstance(data, Mesh | Scene) else data)
     encoded = parse(view, memory_limit)
-    frame, sizes = ebz_file.sizes(view)
+    frame, sizes = file.sizes(view)
     if isinstance(encoded, EncodedMesh):
         return _describe(encoded, frame | sizes[0])[0]
     parts = []

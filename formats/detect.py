@@ -3,7 +3,7 @@
 from pathlib import PurePath
 
 from ebz.codec.errors import MeshError
-from ebz.formats.ply import is_ply
+from ebz.formats.ply.reader import is_ply
 
 SUFFIXES = {
     "ply": ".ply",

@@ -15,15 +15,8 @@ from ebz.formats.polygons import fanned, triangulated
 __all__ = ["FORMATS", "format_of_suffix", "read_mesh", "suffix_of", "write_mesh"]
 
 
-# Where read_FORMAT and write_FORMAT are.
-MODULES = {
-    "ply": ("ply", "ply_write"),
-    "obj": ("obj", "obj_write"),
-    "off": ("off", "off_write"),
-    "stl": ("stl", "stl_write"),
-    "gltf": ("gltf", "gltf"),
-    "glb": ("gltf", "gltf"),
-}
+# The folder of each, whose modules `reader` and `writer` have read_FORMAT and write_FORMAT.
+FOLDERS = {name: name for name in FORMATS} | {"glb": "gltf"}
 SCENES = ("gltf", "glb")
 # May refer to files beside them.
 WITH_FILES = SCENES
@@ -46,7 +39,7 @@ def read_mesh(
     """
     content = data if isinstance(data, bytes) else bytes(data)
     chosen = format_of(content, name) if format is None else format
-    reader = _function(0, "read", chosen)
+    reader = _function("reader", "read", chosen)
     found: Mesh | Scene = reader(content, folder) if chosen in WITH_FILES else reader(content)
     if not triangulate:
         return found
@@ -65,7 +58,7 @@ def write_mesh(mesh: Mesh | Scene, format: str) -> bytes:
     if format in SCENES:
         return _writer(format)(mesh)
     if "gltf" in mesh.metadata:
-        from ebz.formats.gltf_nodes import placed
+        from ebz.formats.gltf.nodes import placed
 
         mesh = placed(mesh, format)
     if isinstance(mesh, Scene):
@@ -74,11 +67,11 @@ def write_mesh(mesh: Mesh | Scene, format: str) -> bytes:
 
 
 def _writer(format: str) -> Callable[[Any], bytes]:
-    writer: Callable[[Any], bytes] = _function(1, "write", format)
+    writer: Callable[[Any], bytes] = _function("writer", "write", format)
     return writer
 
 
-def _function(which: int, verb: str, format: str) -> Any:
-    if format not in MODULES:
+def _function(module: str, verb: str, format: str) -> Any:
+    if format not in FOLDERS:
         raise OptionError(f"unknown mesh format {format!r}: one of {', '.join(FORMATS)}")
-    return getattr(import_module(f"ebz.formats.{MODULES[format][which]}"), f"{verb}_{format}")
+    return getattr(import_module(f"ebz.formats.{FOLDERS[format]}.{module}"), f"{verb}_{format}")

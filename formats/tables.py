@@ -15,8 +15,8 @@ from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.stack import StackTable
 from ebz.codec.models.table import TOTAL, Table
-from ebz.formats import layout
-from ebz.formats.chunks import Chunk
+from ebz.formats.ebz import layout
+from ebz.formats.ebz.chunks import Chunk
 
 # What a header's model may be.
 NUMBERS = {layout.INLINE_MODEL, *layout.MODELS, *layout.ADAPTIVE_MODELS}
@@ -45,7 +45,7 @@ def write(table: AnyTable) -> bytes:
         "n_rows": len(table.frequencies),
         "frequencies": table.frequencies[:, :-1].tolist(),
     }
-    from ebz.formats import declarations
+    from ebz.formats.ebz import declarations
 
     if isinstance(table, Table):
         successors = {"successors": table.successors.tolist()}
@@ -79,7 +79,7 @@ def read(number: int, chunk: Chunk | None) -> WordModel:
 
 
 def _parse(chunk: Chunk) -> AnyTable:
-    from ebz.formats import declarations
+    from ebz.formats.ebz import declarations
 
     kind, body = chunk.payload[:1], chunk.payload[1:]
     if kind == bytes([layout.AUTOMATON]):

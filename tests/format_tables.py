@@ -43,7 +43,7 @@ BEYOND = {
 
 def page() -> str:
     """The page, as it is to be."""
-    words = (KERNELS / "word_priors.hpp").read_text("utf-8")
+    words = (KERNELS / "word" / "word_priors.hpp").read_text("utf-8")
     nodes = (KERNELS / "positions" / "initial_weights.hpp").read_text("utf-8")
     sections = [INTRODUCTION, DEGREES, _code(_degrees(words))]
     for method in ("fast", "strong"):

@@ -13,9 +13,9 @@ from ebz.codec.models.adaptive import CHEAPEST_SYMBOL
 from ebz.codec.models.stack import MAX_EXTENT
 from ebz.codec.models.table import MAX_STATES
 from ebz.codec.positions import FLOAT_METHODS, Method
-from ebz.formats import layout
-from ebz.formats.header import Header
-from ebz.formats.limits import CHEAPEST_BIT, CHEAPEST_DECISION
+from ebz.formats.ebz import layout
+from ebz.formats.ebz.header import Header
+from ebz.formats.ebz.limits import CHEAPEST_BIT, CHEAPEST_DECISION
 from tests import format_tables
 
 TEXT = (Path(__file__).parents[1] / "FORMAT.md").read_text("utf-8")

@@ -17,7 +17,7 @@ class Effort(enum.IntEnum):
         return f"adaptive-{self.name.lower()}"
 
 
-# A decision's probability is at most this (least_share in codec/kernels/context_mixing.hpp), and
+# A decision is at most this likely (least_share in codec/kernels/entropy/context_mixing.hpp), and
 # every symbol that is not determined takes one decision at least: more than 2^-12 bits.
 CHEAPEST_SYMBOL = math.log2(65536 / (65536 - 12))
 

@@ -12,7 +12,7 @@ from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.table import table_names
 from ebz.codec.sample import grid, random_triangulation, sphere
-from ebz.formats import ebz_file
+from ebz.formats.ebz import file
 from tests import surgery
 from tests.meshes import face_lists, meshes, rngs, surfaces
 from tests.oracles import fast_word, integers, reverse, specials
@@ -91,7 +91,7 @@ def test_carries_run_through_many_bytes(p1):
 def check_file(mesh: ebz.Mesh, model: str | None) -> None:
     """Decodes the connectivity of a file with nothing but the twins; no adaptive model."""
     data = ebz.compress(mesh, model=model)
-    encoded = ebz_file.read(memoryview(data), memory_limit=1 << 30)
+    encoded = file.read(memoryview(data), memory_limit=1 << 30)
     counts, streams = encoded.counts, encoded.streams
     decoded = pipeline.decode(encoded)
     word = "".join("CLRSE"[symbol] for symbol in decoded.word.symbols)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ebz.formats.gltf_json import make_glb
+from ebz.formats.gltf.glb import make_glb
 
 POSITIONS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 1, 1], [2, 0, 1]], np.float32)
 COMPONENTS = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}

@@ -14,7 +14,7 @@ from ebz.codec.elements import Element
 from ebz.codec.errors import DroppedWarning, MeshError
 from ebz.codec.mesh import Mesh
 from ebz.codec.scene import Scene
-from ebz.formats.gltf_json import make_glb, split_glb
+from ebz.formats.gltf.glb import make_glb, split_glb
 from ebz.formats.meshes import read_mesh, write_mesh
 from tests.formats.carried import contents
 from tests.formats.gltf_files import (

@@ -6,7 +6,7 @@ import pytest
 from ebz.codec.errors import DroppedWarning, EbzError, MeshError
 from ebz.codec.mesh import Mesh
 from ebz.formats.meshes import read_mesh, write_mesh
-from ebz.formats.stl import FACET
+from ebz.formats.stl.reader import FACET
 from ebz.formats.weld import weld
 
 FACET_TEXT = """\

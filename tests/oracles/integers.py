@@ -1,4 +1,4 @@
-"""Adaptive integers once more, as codec/kernels/integers.hpp codes them."""
+"""Adaptive integers once more, as codec/kernels/entropy/integers.hpp codes them."""
 
 from collections import defaultdict
 from collections.abc import Sequence

@@ -1,6 +1,6 @@
 """The range coder once more, with integers that never overflow: no carry has to be propagated.
 
-G. N. N. Martin, "Range encoding", 1979; codec/kernels/range_coder.hpp is what ebz uses.
+G. N. N. Martin, "Range encoding", 1979; codec/kernels/entropy/range_coder.hpp is what ebz uses.
 """
 
 FULL = 2**48 - 1

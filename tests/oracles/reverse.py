@@ -1,6 +1,6 @@
 """Spirale Reversi once more, with loops as plain lists of half-edges, gate first.
 
-M. Isenburg and J. Snoeyink, 2000; codec/kernels/reverse.cpp is what ebz uses.  A half-edge is
+M. Isenburg and J. Snoeyink, 2000; codec/kernels/word/reverse.cpp is what ebz uses.  A half-edge is
 (triangle, side): side 0 is the triangle's gate, 1 its right edge, 2 its left one; triangles go by
 the position of their symbol in the word, first triangles of closed components by ("first", i).
 """

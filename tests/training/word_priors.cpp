@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "mixed_model.hpp"
+#include "word/mixed_model.hpp"
 
 namespace ebz {
 

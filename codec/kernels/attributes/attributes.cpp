@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "../range_coder.hpp"
+#include "../entropy/range_coder.hpp"
 #include "fast.hpp"
 #include "labels.hpp"
 #include "neighbourhood.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../errors.hpp"
-#include "../rows.hpp"
+#include "../numbers/rows.hpp"
 
 namespace ebz::binding {
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "../lattices.hpp"
-#include "../listing.hpp"
-#include "../singles.hpp"
+#include "../numbers/lattices.hpp"
+#include "../numbers/listing.hpp"
+#include "../numbers/singles.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
 

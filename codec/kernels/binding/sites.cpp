@@ -1,8 +1,8 @@
 // Which corners of the pieces are one site, and which vertices of the mesh a site has.
-#include "../gluing.hpp"
-#include "../splits.hpp"
-#include "../topology.hpp"
-#include "../weld.hpp"
+#include "../surface/gluing.hpp"
+#include "../surface/splits.hpp"
+#include "../surface/topology.hpp"
+#include "../surface/weld.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
 

@@ -2,9 +2,9 @@
 #include <new>
 #include <vector>
 
-#include "../integers.hpp"
-#include "../lists.hpp"
-#include "../text.hpp"
+#include "../entropy/integers.hpp"
+#include "../numbers/lists.hpp"
+#include "../entropy/text.hpp"
 #include "arrays.hpp"
 #include "modules.hpp"
 

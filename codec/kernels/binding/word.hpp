@@ -1,7 +1,7 @@
 // Words as arrays: of triangles (word.cpp) and of polygons (polygons.cpp).
 #pragma once
 
-#include "../connectivity.hpp"
+#include "../word/connectivity.hpp"
 #include "arrays.hpp"
 
 namespace ebz::binding {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "../errors.hpp"
-#include "../integers.hpp"
+#include "../entropy/integers.hpp"
 #include "neighbours.hpp"
 
 namespace ebz::elements {

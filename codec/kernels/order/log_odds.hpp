@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "../logistic.hpp"
-#include "../range_coder.hpp"
+#include "../entropy/logistic.hpp"
+#include "../entropy/range_coder.hpp"
 
 namespace ebz::order {
 

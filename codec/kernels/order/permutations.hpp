@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "../faces.hpp"
+#include "../surface/faces.hpp"
 #include "../positions/surface.hpp"
 
 namespace ebz::order {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../corner_table.hpp"
+#include "../surface/corner_table.hpp"
 
 namespace ebz::order {
 

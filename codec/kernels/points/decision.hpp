@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "../context_mixing.hpp"
+#include "../entropy/context_mixing.hpp"
 #include "../order/log_odds.hpp"
 
 namespace ebz::points {

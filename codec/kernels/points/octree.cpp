@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "../errors.hpp"
-#include "../integers.hpp"
-#include "../range_coder.hpp"
+#include "../entropy/integers.hpp"
+#include "../entropy/range_coder.hpp"
 #include "cells.hpp"
 #include "octree_model.hpp"
 

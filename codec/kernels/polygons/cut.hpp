@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "../faces.hpp"
+#include "../surface/faces.hpp"
 
 namespace ebz::polygons {
 

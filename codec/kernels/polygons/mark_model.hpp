@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "../context_mixing.hpp"
-#include "../word_contexts.hpp"
+#include "../entropy/context_mixing.hpp"
+#include "../word/word_contexts.hpp"
 
 namespace ebz::polygons {
 

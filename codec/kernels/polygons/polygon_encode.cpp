@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "../pieces.hpp"
-#include "../regions.hpp"
-#include "../touching_fans.hpp"
+#include "../surface/pieces.hpp"
+#include "../word/regions.hpp"
+#include "../surface/touching_fans.hpp"
 #include "polygons.hpp"
 
 namespace ebz::polygons {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "../faces.hpp"
+#include "../surface/faces.hpp"
 
 namespace ebz::polygons {
 

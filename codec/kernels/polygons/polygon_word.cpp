@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "../mixed_model.hpp"
-#include "../special_coder.hpp"
+#include "../word/mixed_model.hpp"
+#include "../word/special_coder.hpp"
 #include "mark_model.hpp"
 #include "polygons.hpp"
 

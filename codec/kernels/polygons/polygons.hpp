@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "../connectivity.hpp"
+#include "../word/connectivity.hpp"
 
 namespace ebz::polygons {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "../integers.hpp"
+#include "../entropy/integers.hpp"
 #include "spaces.hpp"
 #include "traversal.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "../adaptive_symbol.hpp"
+#include "../entropy/adaptive_symbol.hpp"
 #include "residual_digits.hpp"
 #include "symbol_mixer.hpp"
 #include "symbol_row.hpp"

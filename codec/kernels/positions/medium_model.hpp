@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "../adaptive_symbol.hpp"
+#include "../entropy/adaptive_symbol.hpp"
 #include "int_lanes.hpp"
 #include "residual_digits.hpp"
 #include "symbol_row.hpp"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "../range_coder.hpp"
+#include "../entropy/range_coder.hpp"
 #include "axis_order.hpp"
 #include "fast.hpp"
 #include "float_coder.hpp"

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "../ans.hpp"
+#include "../entropy/ans.hpp"
 #include "../instruction_set.hpp"
 #include "wrapping.hpp"
 

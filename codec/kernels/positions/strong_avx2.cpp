@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "../range_coder.hpp"
+#include "../entropy/range_coder.hpp"
 #include "axes.hpp"
 #include "axis_order.hpp"
 #include "expectation.hpp"

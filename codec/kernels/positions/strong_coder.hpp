@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "../range_coder.hpp"
+#include "../entropy/range_coder.hpp"
 #include "axes.hpp"
 #include "axis_order.hpp"
 #include "prediction.hpp"

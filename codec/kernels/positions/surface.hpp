@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "../corner_table.hpp"
+#include "../surface/corner_table.hpp"
 
 namespace ebz::positions {
 

@@ -12,7 +12,7 @@
 #include <emmintrin.h>
 #endif
 
-#include "../adaptive_symbol.hpp"
+#include "../entropy/adaptive_symbol.hpp"
 #include "../instruction_set.hpp"
 
 namespace ebz::positions {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "../ans.hpp"
-#include "../bits.hpp"
+#include "../entropy/ans.hpp"
+#include "../entropy/bits.hpp"
 
 namespace ebz::positions {
 inline namespace EBZ_INSTRUCTIONS {
