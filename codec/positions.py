@@ -98,8 +98,9 @@ def encode(
         return _at_last(surface, values, plain())
     listing, which = found
     first = _first(surface, which, _with_next(method, n_along))
-    # A list of a third of the stream or less pays, but on regular grids, which need none.
-    if 3 * listing.size > first.size or _is_regular(first, n_along):
+    # A list of a third of many points' stream or less pays, but on regular grids, which need none.
+    is_long = 3 * listing.size > first.size
+    if n_along <= MAX_FEW or is_long or _is_regular(first, n_along):
         other = plain()
         if _is_regular(other, n_along) or other.size <= first.size + listing.size:
             return _at_last(surface, values, other)

@@ -81,7 +81,8 @@ Listed ascending(Listed listed) {
 Listed list_different(std::span<const int64_t> values) {
     if (!may_be_few(values)) return {};
     const uint64_t range = range_of(values), n = values.size();
-    const size_t most = most_different(n, range / 256 >= n ? 2 : 1, range);
+    const bool is_sparse = range / 256 >= n, is_short = n <= n_tried;
+    const size_t most = most_different(n, is_sparse || is_short ? 2 : 1, range);
     Numbering numbering(most);
     Listed listed;
     listed.which.reserve(values.size());
