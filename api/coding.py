@@ -9,7 +9,6 @@ import numpy as np
 from ebz import options
 from ebz.codec import scenes
 from ebz.codec.attributes.rounding import require_names
-from ebz.codec.connectivity import OutputOrder
 from ebz.codec.errors import OptionError
 from ebz.codec.levels import DEFAULT_LEVEL, DEFAULT_TABLE
 from ebz.codec.mesh import Mesh
@@ -20,6 +19,7 @@ from ebz.codec.order import Permutation
 from ebz.codec.pipeline import Progress
 from ebz.codec.scene import Scene
 from ebz.codec.scenes import Encoded
+from ebz.codec.surface import OutputOrder
 from ebz.codec.threads import using as run_on
 from ebz.formats.ebz import file
 from ebz.formats.ebz.limits import DEFAULT_MEMORY_LIMIT

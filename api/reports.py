@@ -7,7 +7,6 @@ from ebz.codec.attributes.comparison import lattices_of
 from ebz.codec.compare import Verification
 from ebz.codec.compare_metadata import with_metadata
 from ebz.codec.compare_scenes import compare_parts, summary
-from ebz.codec.connectivity import WordModel
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import OptionError
 from ebz.codec.levels import guaranteed_by
@@ -16,6 +15,7 @@ from ebz.codec.models.guarantee import guaranteed_bits
 from ebz.codec.scene import Scene, in_part
 from ebz.codec.scene_statistics import SceneStats
 from ebz.codec.statistics import Stats
+from ebz.codec.word import WordModel
 from ebz.coding import BytesLike, compress, parse
 from ebz.formats.ebz import file
 from ebz.formats.ebz.limits import DEFAULT_MEMORY_LIMIT

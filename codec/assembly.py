@@ -11,13 +11,13 @@ from ebz.codec import points as free_points
 from ebz.codec.arrays import Attributes, face_dtype
 from ebz.codec.attributes import coding, corners, rows
 from ebz.codec.attributes.items import Sites
-from ebz.codec.connectivity import Surface
 from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.integers import decode_columns, from_gaps
 from ebz.codec.mesh import Mesh
 from ebz.codec.order import SourceOrder
+from ebz.codec.surface import Surface
 from ebz.codec.welding import Split
 
 

@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ebz.codec.attributes.plan import Plan
-from ebz.codec.connectivity import WordCounts, WordModel
 from ebz.codec.lattice import Lattice
 from ebz.codec.listing import Listing
 from ebz.codec.order import OrderStreams
 from ebz.codec.positions import Coding
+from ebz.codec.word import WordCounts, WordModel
 
 NOWHERE: Mapping[str, object] = MappingProxyType({})
 

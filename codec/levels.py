@@ -3,10 +3,10 @@
 from functools import cache
 
 from ebz.codec.attributes.plan import Effort as AttributeEffort
-from ebz.codec.connectivity import WordModel
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.positions import Method
+from ebz.codec.word import WordModel
 
 LEVELS = range(1, 10)
 DEFAULT_LEVEL = 6

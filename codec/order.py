@@ -14,9 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels, polygons
-from ebz.codec.connectivity import Int32s, Int64s, OutputOrder
 from ebz.codec.errors import CorruptError, corrupt_at
 from ebz.codec.polygons import PolygonCorners
+from ebz.codec.surface import Int32s, Int64s, OutputOrder
 
 Array = npt.NDArray[Any]
 NOTHING = np.zeros(0, np.int32)

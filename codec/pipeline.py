@@ -21,7 +21,6 @@ from ebz.codec.attributes.precision import (
     is_name_of_normal,
 )
 from ebz.codec.attributes.rounding import rounded
-from ebz.codec.connectivity import EncodedWord, OutputOrder, Surface, WordModel
 from ebz.codec.digest import digest
 from ebz.codec.encoded import EncodedArray, EncodedMesh, Streams
 from ebz.codec.errors import CorruptError, corrupt_at
@@ -31,7 +30,9 @@ from ebz.codec.lattice import Points
 from ebz.codec.levels import DEFAULT_LEVEL, attribute_effort, position_method, word_models
 from ebz.codec.mesh import Mesh
 from ebz.codec.order import OrderStreams, SourceOrder
+from ebz.codec.surface import OutputOrder, Surface
 from ebz.codec.welding import Split
+from ebz.codec.word import EncodedWord, WordModel
 
 Progress = Callable[[str, int, int], None]
 N_STAGES = 4

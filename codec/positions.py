@@ -9,10 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels, threads
-from ebz.codec.connectivity import Surface
 from ebz.codec.lattice import FloatLattice, Integers, Lattice, Points, SingleLattice
 from ebz.codec.listing import Listing, listed
 from ebz.codec.polygons import Cut
+from ebz.codec.surface import Surface
 
 Int32s = npt.NDArray[np.int32]
 

@@ -4,13 +4,14 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from ebz.codec import fitting, metadata, pipeline, threads
-from ebz.codec.connectivity import OutputOrder, WordModel
 from ebz.codec.encoded import EncodedMesh, EncodedText
 from ebz.codec.errors import corrupt_at
 from ebz.codec.fitting import LOSSLESS, Precision
 from ebz.codec.mesh import Mesh
 from ebz.codec.pipeline import Progress
 from ebz.codec.scene import Scene, in_part, name_of
+from ebz.codec.surface import OutputOrder
+from ebz.codec.word import WordModel
 
 
 class EncodedScene(NamedTuple):

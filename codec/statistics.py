@@ -10,10 +10,11 @@ import numpy.typing as npt
 
 from ebz.codec import _kernels
 from ebz.codec.attributes.summary import summary
-from ebz.codec.connectivity import EncodedWord, Surface, WordModel
 from ebz.codec.encoded import EncodedArray, EncodedMesh
 from ebz.codec.mesh import Mesh
 from ebz.codec.models.adaptive import Effort
+from ebz.codec.surface import Surface
+from ebz.codec.word import EncodedWord, WordModel
 
 # W. T. Tutte, "A census of planar triangulations", 1962: log2(256 / 27) bits per vertex.
 TUTTE_LIMIT = math.log2(256 / 27)

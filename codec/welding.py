@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.connectivity import Int32s, Int64s, OutputOrder, Surface
 from ebz.codec.errors import CorruptError
+from ebz.codec.surface import Int32s, Int64s, OutputOrder, Surface
 
 
 class Split(NamedTuple):

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ebz.codec.connectivity import WordModel
 from ebz.codec.errors import CorruptError, OptionError, VersionError, corrupt_at
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.models.load import AnyTable, load
 from ebz.codec.models.stack import StackTable
 from ebz.codec.models.table import TOTAL, Table
+from ebz.codec.word import WordModel
 from ebz.formats.ebz import layout
 from ebz.formats.ebz.chunks import Chunk
 

@@ -7,11 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ebz.codec import _kernels, connectivity, sample
-from ebz.codec.connectivity import EncodedWord
 from ebz.codec.errors import CorruptError
 from ebz.codec.levels import DEFAULT_TABLE, LEVELS, word_models
 from ebz.codec.models.adaptive import CHEAPEST_SYMBOL, Effort
 from ebz.codec.models.load import load
+from ebz.codec.word import EncodedWord
 from tests import meshes
 from tests.surgery import Faces, n_used
 

@@ -15,9 +15,9 @@ from ebz.codec.attributes.bundles import Bundle
 from ebz.codec.attributes.items import Sites
 from ebz.codec.attributes.plan import Effort
 from ebz.codec.attributes.precision import AttributePrecision
-from ebz.codec.connectivity import Int32s, Int64s
 from ebz.codec.encoded import EncodedArray
 from ebz.codec.errors import corrupt_at
+from ebz.codec.surface import Int32s, Int64s
 
 
 def encode(

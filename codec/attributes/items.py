@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ebz.codec import _kernels
-from ebz.codec.connectivity import Int32s, Surface
 from ebz.codec.errors import CorruptError
 from ebz.codec.order import SourceOrder
 from ebz.codec.polygons import PolygonCorners, Triangles
+from ebz.codec.surface import Int32s, Surface
 from ebz.codec.welding import Split
 
 Floats = npt.NDArray[np.float64]

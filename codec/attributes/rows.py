@@ -13,10 +13,10 @@ from ebz.codec.attributes import coding
 from ebz.codec.attributes.bundles import Bundle
 from ebz.codec.attributes.items import Floats, Sites, rows
 from ebz.codec.attributes.precision import AttributePrecision
-from ebz.codec.connectivity import Int32s
 from ebz.codec.elements import Element
 from ebz.codec.encoded import EncodedArray, EncodedElement
 from ebz.codec.errors import CorruptError, corrupt_at
+from ebz.codec.surface import Int32s
 
 Renumber = Callable[[npt.NDArray[Any]], npt.NDArray[Any]]
 

@@ -7,7 +7,6 @@ import struct
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ebz.codec.connectivity import WordCounts
 from ebz.codec.encoded import EncodedMesh
 from ebz.codec.errors import CorruptError, VersionError
 from ebz.codec.lattice import Lattice, SingleLattice
@@ -15,6 +14,7 @@ from ebz.codec.mesh import MAX_FACES, MAX_VERTICES
 from ebz.codec.models.adaptive import Effort
 from ebz.codec.polygons import Cut, PolygonCounts
 from ebz.codec.positions import FLOAT_METHODS, Coding, Method, can_cut
+from ebz.codec.word import WordCounts
 from ebz.formats import tables
 from ebz.formats.ebz import lattices, layout
 

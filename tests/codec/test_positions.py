@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 
 import ebz
 from ebz.codec import _kernels, pipeline, positions
-from ebz.codec.connectivity import Surface, traverse
+from ebz.codec.connectivity import traverse
 from ebz.codec.positions import Coding, Method
 from ebz.codec.sample import glued_grid
+from ebz.codec.surface import Surface
 from tests.connectivity_check import same_mesh
 from tests.meshes import face_lists, rngs
 from tests.oracles import light, medium

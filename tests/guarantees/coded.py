@@ -12,10 +12,10 @@ import numpy.typing as npt
 
 import ebz
 from ebz.codec import connectivity
-from ebz.codec.connectivity import EncodedWord
 from ebz.codec.models.certificate import Certificate
 from ebz.codec.models.load import AnyTable
 from ebz.codec.models.table import SYMBOLS
+from ebz.codec.word import EncodedWord
 
 Faces = npt.NDArray[np.integer[Any]]
 
