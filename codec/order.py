@@ -181,7 +181,8 @@ def decode(
     if streams.vertices is None:
         return SourceOrder(None, None, rotations, known.offsets)
     if method == Method.ALONG_FACES:
-        vertices = known.decode_vertices_along(rest, faces, rotations)
+        with corrupt_at(place("vertex order")):
+            vertices = known.decode_vertices_along(rest, faces, rotations)
     return SourceOrder(vertices, faces, rotations, known.offsets)
 
 

@@ -179,3 +179,14 @@ def test_verify_compares_the_order_where_it_is_kept():
     result = ebz.verify(kept, mesh)
     assert (result.equal, result.matched_by) == (True, "order")
     assert "order of vertices and faces" in result.checked
+
+
+def test_vertices_that_no_face_visits_are_refused() -> None:
+    square = np.array([[0, 1, 2], [2, 1, 3]], np.int32)
+    surface, _ = connectivity.traverse(square, 4)
+    positions = np.zeros(12, np.int64)
+    visits = np.array([0], np.int32)
+    with pytest.raises(CorruptError, match="no face visits"):
+        _kernels.decode_vertex_order(
+            bytes(8), surface.opposite, surface.vertex, positions, visits, False
+        )

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "../errors.hpp"
 #include "index_coder.hpp"
 #include "local_rank.hpp"
 #include "permutations.hpp"
@@ -58,6 +59,8 @@ public:
 
     void run(Visits visits) {
         by_first_use_ = !visits.vertices.empty();
+        // Polygons of a damaged file may leave out vertices of their triangles.
+        if (by_first_use_ && visits.vertices.size() < static_cast<size_t>(n_used_)) throw Corrupt("vertices that no face visits");
         for (Index i = 0; i < n_used_; ++i) code(by_first_use_ ? visits.vertices[i] : i);
         add_isolated();
     }
