@@ -84,7 +84,7 @@ def encode_word(traversal: Traversal, model: WordModel) -> tuple[bytes, bytes]:
     """The word and the integers of its special S, which adaptive models code within the word."""
     counts, symbols, specials = traversal.counts, traversal.symbols, traversal.specials
     if isinstance(model, AnyTable):
-        word = _kernels.encode_symbols(symbols, specials, _frozen(model))
+        word = _kernels.encode_symbols(symbols, specials, kernel_model(model))
         return word, encode_specials(specials, counts.n_symbols)
     sizes = counts.n_closed, counts.n_single
     if counts.polygons is not None:
@@ -110,8 +110,8 @@ def decode_word(
         with corrupt_at(place("special S")):
             specials = decode_specials(special_integers, counts.n_specials, counts.n_symbols)
         with corrupt_at(place("word")):
-            frozen = _frozen(model)
-            return _kernels.decode_connectivity(word, *sizes, specials, frozen), specials, None
+            table = kernel_model(model)
+            return _kernels.decode_connectivity(word, *sizes, specials, table), specials, None
     with corrupt_at(place("word")):
         if counts.polygons is None:
             return *_kernels.decode_adaptive(word, *sizes, counts.n_specials, model), None
@@ -133,7 +133,8 @@ def _decode_corners(
     return PolygonCorners(polygons.with_empty(offsets, declared.n_empty), corner)
 
 
-def _frozen(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
+def kernel_model(table: AnyTable) -> _kernels.AutomatonModel | _kernels.StackModel:
+    """The probabilities of a table and what they depend on."""
     frequencies = table.frequencies.reshape(-1)
     if isinstance(table, Table):
         return _kernels.automaton(frequencies, table.successors.reshape(-1))

@@ -18,6 +18,7 @@ import numpy as np
 from ebz.codec import _kernels, connectivity, sample
 from ebz.codec.models.guarantee import BUILT_IN
 from ebz.codec.models.load import load
+from ebz.codec.word import kernel_model
 
 REPEATS = 5
 
@@ -49,7 +50,7 @@ def main() -> None:
 
 def _coders(word: connectivity.EncodedWord, table: Any) -> list[Callable[[], Any]]:
     """Symbols to bytes and nothing else; bytes to symbols and to the triangles that they build."""
-    model = connectivity._frozen(table)
+    model = kernel_model(table)
     sizes = word.counts.n_symbols, word.counts.n_closed, word.counts.n_single
     return [
         lambda: _kernels.encode_symbols(word.symbols, word.specials, model),

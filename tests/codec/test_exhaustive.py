@@ -13,9 +13,10 @@ from ebz.codec import _kernels, connectivity
 from ebz.codec.models.language import check_stacks
 from ebz.codec.models.load import load
 from ebz.codec.models.table import Table, table_names
+from ebz.codec.word import kernel_model
 
 TABLE = Table.load("loop-60")
-MODEL = connectivity._frozen(TABLE)
+MODEL = kernel_model(TABLE)
 NO_SPECIALS = np.zeros(0, np.int64)
 
 Stack = tuple[tuple[int, int], ...]  # (length, conflict) from the top down, 0 for no conflict
@@ -99,7 +100,7 @@ def test_the_automaton_forbids_nothing_that_a_stack_of_up_to_13_triangles_allows
 
 @pytest.mark.parametrize("name", table_names())
 def test_every_word_can_be_coded_with_every_table(name):
-    model = connectivity._frozen(load(name))
+    model = kernel_model(load(name))
     for word in words(7):
         symbols = np.array(["CLRSE".index(symbol) for symbol in word], np.uint8)
         assert _kernels.encode_symbols(symbols, NO_SPECIALS, model)
