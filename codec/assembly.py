@@ -50,12 +50,12 @@ def decode_integers(encoded: EncodedMesh, surface: Surface, n_sites: int) -> lat
 
 def decode_coordinates(encoded: EncodedMesh, integers: lattice.Integers) -> lattice.Floats:
     """(n, 3) coordinates of these integers, exceptions among them."""
-    coordinates = encoded.lattice.coordinates(integers, encoded.dtype)
-    if encoded.n_exceptions:
-        with corrupt_at(encoded.place("exceptions")):
-            rows = _decode_exceptions(encoded, len(integers))
-            coordinates.reshape(-1)[rows] = _decode_values(encoded)
-    return coordinates
+    if not encoded.n_exceptions:
+        return encoded.lattice.coordinates(integers, encoded.dtype)
+    with corrupt_at(encoded.place("exceptions")):
+        rows, exact = _decode_exceptions(encoded, len(integers)), _decode_values(encoded)
+    points = lattice.Points(encoded.lattice, integers, rows)
+    return lattice.restore(points, encoded.dtype, exact)
 
 
 def decode_carried(encoded: EncodedMesh, sites: Sites) -> Carried:

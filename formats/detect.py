@@ -14,7 +14,6 @@ SUFFIXES = {
     "glb": ".glb",
 }
 FORMATS = tuple(SUFFIXES)
-EBZ_MAGIC = b"\x89EBZ\r\n\x1a\n"
 GLB_MAGIC = b"glTF"
 HEAD_SIZE = 4096
 OBJ_KEYWORDS = frozenset(

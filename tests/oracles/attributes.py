@@ -7,6 +7,7 @@ import numpy as np
 from tests.oracles.decisions import WORD, Coder, Decisions, key
 from tests.oracles.differences import Tree
 from tests.oracles.floats import F, signed
+from tests.oracles.least_squares import solved
 from tests.oracles.recall import Table
 
 Rows = list[list[int]]
@@ -36,31 +37,11 @@ class Fit:
         self.n += 1
         if self.n < self.due:
             return
-        self._solve(3.0)
+        self.w = solved(self.a, self.b, self.prior, 3.0)
         self.due = self.n + (1 if self.n < 4 else self.n // 4 if self.n < 128 else 32)
         if self.n >= 128:
             self.a *= 1.0 - 32.0 / 3000
             self.b *= 1.0 - 32.0 / 3000
-
-    def _solve(self, ridge: float) -> None:
-        lower, d, w = np.eye(N_FEATURES), np.zeros(N_FEATURES), np.zeros(N_FEATURES)
-        for i in range(N_FEATURES):
-            w[i] = self.b[i] + ridge * self.prior[i]
-            for j in range(i + 1):
-                s = self.a[i, j] + (ridge if i == j else 0)
-                for k in range(j):
-                    s -= lower[i, k] * lower[j, k] * d[k]
-                if i == j:
-                    d[i] = s if s > 0.5 * ridge else 0.5 * ridge
-                else:
-                    lower[i, j] = s / d[j]
-            for k in range(i):
-                w[i] -= lower[i, k] * w[k]
-        w /= d
-        for i in reversed(range(N_FEATURES)):
-            for k in range(i + 1, N_FEATURES):
-                w[i] -= lower[k, i] * w[k]
-        self.w = w
 
 
 class Turn:

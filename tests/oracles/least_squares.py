@@ -1,4 +1,4 @@
-"""Least squares once more, by sections 9.3 and 9.5 of FORMAT.md: those of three inputs."""
+"""Least squares once more, by sections 9.3, 9.5 and 12.3 of FORMAT.md."""
 
 from collections.abc import Sequence
 
@@ -13,7 +13,7 @@ WIDEST = 10000.0
 
 
 class Fit:
-    """Sums are kept for each of three axes."""
+    """Of three inputs; sums are kept for each of three axes."""
 
     def __init__(self, prior: Sequence[float]) -> None:
         self.prior = [float(F(w)) for w in prior]
@@ -44,25 +44,31 @@ class Fit:
             self.b *= FORGET
 
     def _solve(self) -> None:
-        a, b = over_axes(self.a), over_axes(self.b)
-        lower, d, w = np.eye(D), np.zeros(D), np.zeros(D)
-        for i in range(D):
-            w[i] = b[i] + RIDGE * self.prior[i]
-            for j in range(i + 1):
-                s = a[i, j] + (RIDGE if i == j else 0)
-                for k in range(j):
-                    s -= lower[i, k] * lower[j, k] * d[k]
-                if i == j:
-                    d[i] = s if s > 0.5 * RIDGE else 0.5 * RIDGE
-                else:
-                    lower[i, j] = s / d[j]
-            for k in range(i):
-                w[i] -= lower[i, k] * w[k]
-        w /= d
-        for i in reversed(range(D)):
-            for k in range(i + 1, D):
-                w[i] -= lower[k, i] * w[k]
+        w = solved(over_axes(self.a), over_axes(self.b), self.prior, RIDGE)
         self.weights = [F(min(max(x, -WIDEST), WIDEST)) for x in w]
+
+
+def solved(a: np.ndarray, b: np.ndarray, prior: Sequence[float], ridge: float) -> np.ndarray:
+    """The weights near the prior; a: the lower half of the sums, of any number of inputs."""
+    n = len(b)
+    lower, d, w = np.eye(n), np.zeros(n), np.zeros(n)
+    for i in range(n):
+        w[i] = b[i] + ridge * prior[i]
+        for j in range(i + 1):
+            s = a[i, j] + (ridge if i == j else 0)
+            for k in range(j):
+                s -= lower[i, k] * lower[j, k] * d[k]
+            if i == j:
+                d[i] = s if s > 0.5 * ridge else 0.5 * ridge
+            else:
+                lower[i, j] = s / d[j]
+        for k in range(i):
+            w[i] -= lower[i, k] * w[k]
+    w /= d
+    for i in reversed(range(n)):
+        for k in range(i + 1, n):
+            w[i] -= lower[k, i] * w[k]
+    return w
 
 
 def over_axes(sums: np.ndarray) -> np.ndarray:
