@@ -93,3 +93,23 @@ def _stdout_on_stderr() -> Iterator[None]:
     finally:
         os.dup2(kept, 1)
         os.close(kept)
+
+
+def scene_of_two() -> Document:
+    """A mesh of two primitives with different materials, shown by two nodes, and one mesh more."""
+    document = triangle(
+        nodes=[
+            {"mesh": 0, "children": [1, 2], "name": "root", "extras": {"a": [1]}},
+            {"mesh": 0, "translation": [5, 0, 0]},
+            {"mesh": 1, "matrix": [float(i % 5 == 0) for i in range(16)]},
+        ],
+        materials=[{"name": "red"}, {"name": "blue", "pbrMetallicRoughness": {}}],
+    )
+    first = document.json["meshes"][0]["primitives"][0]
+    first |= {"material": 0, "extras": {"part": 1}}
+    other = document.accessor(POSITIONS[2:] + 1)
+    meshes = document.json["meshes"]
+    meshes[0]["primitives"].append({"attributes": {"POSITION": other}, "material": 1})
+    meshes.append({"extras": {"k": 2}, "primitives": [{"attributes": {"POSITION": other}}]})
+    meshes[1]["primitives"][0]["attributes"] = {"POSITION": document.accessor(POSITIONS[:3] + 9)}
+    return document
